@@ -1,0 +1,99 @@
+//! What every body answers: the [`Surface`] interface.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use sphpack_neighbors::Bounds;
+
+use crate::GeometryError;
+
+/// The point of a surface that is nearest to some query point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Closest<const D: usize> {
+    /// The nearest point on the surface, scene units.
+    pub point: [f64; D],
+    /// Outward unit normal there; at a corner, an edge or a vertex the (angle-weighted) mean of the sides that meet.
+    pub normal: [f64; D],
+    /// Signed distance of the query point, scene units: negative inside.
+    pub distance: f64,
+    /// What kind of place the nearest point is.
+    pub feature: Feature,
+}
+
+/// What kind of place on a surface a point is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Feature {
+    /// Nothing special: the surface is smooth here, as far as its resolution goes.
+    Smooth,
+    /// On a sharp edge (3-D).
+    Edge,
+    /// At a corner (2-D), or at a vertex where sharp edges end or turn (3-D).
+    Corner,
+}
+
+/// The sharp places of a surface.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Features<const D: usize> {
+    /// Corners of an outline, vertices of a mesh where sharp edges end, branch or turn sharply.
+    pub corners: Vec<[f64; D]>,
+    /// Sharp edges (3-D only): polylines from corner to corner; a closed one repeats its first point at its end.
+    pub edges: Vec<Vec<[f64; D]>>,
+}
+
+/// A closed surface: the boundary of a body. Curves in 2-D, surfaces in 3-D.
+///
+/// Implementations are immutable and cheap to query from many threads at once.
+pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
+    /// The nearest point of the surface, with the signed distance.
+    fn closest(&self, p: [f64; D]) -> Closest<D>;
+
+    /// [`Surface::closest`] where the surface is nearer than `radius` (unsigned), else `None`; cheaper than `closest`
+    /// far from the surface.
+    fn closest_within(&self, p: [f64; D], radius: f64) -> Option<Closest<D>> {
+        let hit = self.closest(p);
+        (hit.distance.abs() <= radius).then_some(hit)
+    }
+
+    /// Whether `p` is inside the body. Points of the surface itself may go either way.
+    fn inside(&self, p: [f64; D]) -> bool;
+
+    /// Length of the outline (2-D) or area of the surface (3-D).
+    fn measure(&self) -> f64;
+
+    /// Area (2-D) or volume (3-D) that the surface encloses.
+    fn volume(&self) -> f64;
+
+    /// The smallest axis-aligned box around the body.
+    fn bounds(&self) -> Bounds<D>;
+
+    /// Corners and sharp edges.
+    fn features(&self) -> Features<D>;
+
+    /// The surface moved inward by `depth ≥ 0` (scene units).
+    ///
+    /// In 2-D the offset outline with its corners resolved: convex corners are the intersection of the two offset
+    /// sides, reflex ones mitred up to 4 × the depth and bevelled beyond, self-intersections cut. In 3-D the set
+    /// φ = −depth of the signed distance φ.
+    ///
+    /// # Errors
+    /// [`GeometryError::Vanished`] where nothing of the body is left.
+    fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError>;
+
+    /// [`Surface::closest_within`] for many points, in parallel; entry `i` belongs to `points[i]`.
+    fn closest_batch(&self, points: &[[f64; D]], radius: f64) -> Vec<Option<Closest<D>>> {
+        points
+            .par_iter()
+            .with_min_len(256)
+            .map(|&p| self.closest_within(p, radius))
+            .collect()
+    }
+
+    /// [`Surface::inside`] for many points, in parallel.
+    fn inside_batch(&self, points: &[[f64; D]]) -> Vec<bool> {
+        points
+            .par_iter()
+            .with_min_len(256)
+            .map(|&p| self.inside(p))
+            .collect()
+    }
+}

@@ -1,0 +1,119 @@
+//! The kernel interface, and the one type that scales a dimensionless profile to a smoothing length.
+
+use std::fmt::Debug;
+use std::marker::PhantomData;
+
+/// A radial smoothing kernel in `D` dimensions, fixed to a smoothing length.
+///
+/// Distances and smoothing lengths share a unit; values have that unit to the power −D.
+pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
+    /// The smoothing length h.
+    fn smoothing_length(&self) -> f64;
+
+    /// The support radius: the kernel is zero from here on.
+    fn support(&self) -> f64;
+
+    /// W(r); 0 for `r` beyond the support. `r ≥ 0`.
+    fn value(&self, r: f64) -> f64;
+
+    /// dW/dr; 0 beyond the support and at `r = 0`.
+    fn slope(&self, r: f64) -> f64;
+
+    /// W and (dW/dr)/r from the **squared** distance, without branches: what a pair loop needs, since
+    /// ∇W = (dW/dr)/r · (x_i − x_j). The second is finite at `r = 0`.
+    fn value_and_slope_over_r(&self, r_squared: f64) -> (f64, f64);
+
+    /// W(0), a particle's own share of its summation density.
+    fn value_at_origin(&self) -> f64 {
+        self.value(0.0)
+    }
+
+    /// ∇_iW_ij for `difference` = x_i − x_j; zero (not NaN) where the two coincide.
+    fn gradient(&self, difference: [f64; D]) -> [f64; D] {
+        let r_squared = difference.iter().map(|d| d * d).sum();
+        let (_, slope_over_r) = self.value_and_slope_over_r(r_squared);
+        difference.map(|d| slope_over_r * d)
+    }
+}
+
+/// The shape of a kernel in units of h: w(q) with q = r/h.
+pub trait Profile<const D: usize>: Copy + Debug + Default + Send + Sync {
+    /// Support radius in units of h.
+    const SUPPORT: f64;
+    /// The normalisation σ, so that ∫ σ w(|x|) dx = 1 over ℝ^D.
+    const SIGMA: f64;
+
+    /// w(q), zero for q ≥ [`Profile::SUPPORT`].
+    fn value(q: f64) -> f64;
+
+    /// w'(q)/q, finite for q → 0 as long as `q > 0`.
+    fn slope_over_q(q: f64) -> f64;
+}
+
+/// A profile scaled to a smoothing length; the concrete kernels are aliases of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scaled<P, const D: usize> {
+    smoothing_length: f64,
+    inverse: f64,
+    value_scale: f64,
+    slope_scale: f64,
+    profile: PhantomData<P>,
+}
+
+impl<P: Profile<D>, const D: usize> Scaled<P, D> {
+    /// The kernel of smoothing length `h` (scene units, positive).
+    pub fn new(h: f64) -> Self {
+        let value_scale = P::SIGMA / h.powi(D as i32);
+        Self {
+            smoothing_length: h,
+            inverse: 1.0 / h,
+            value_scale,
+            slope_scale: value_scale / (h * h),
+            profile: PhantomData,
+        }
+    }
+}
+
+/// Below this q the slope is taken at this q: the quotient w'(q)/q would lose its digits, its limit is reached.
+const SMALLEST_Q_SQUARED: f64 = 1e-16;
+
+impl<P: Profile<D>, const D: usize> Kernel<D> for Scaled<P, D> {
+    #[inline(always)]
+    fn smoothing_length(&self) -> f64 {
+        self.smoothing_length
+    }
+
+    #[inline(always)]
+    fn support(&self) -> f64 {
+        P::SUPPORT * self.smoothing_length
+    }
+
+    #[inline(always)]
+    fn value(&self, r: f64) -> f64 {
+        self.value_scale * P::value(r * self.inverse)
+    }
+
+    #[inline(always)]
+    fn slope(&self, r: f64) -> f64 {
+        self.value_and_slope_over_r(r * r).1 * r
+    }
+
+    #[inline(always)]
+    fn value_and_slope_over_r(&self, r_squared: f64) -> (f64, f64) {
+        let q_squared = r_squared * (self.inverse * self.inverse);
+        let q = q_squared.max(SMALLEST_Q_SQUARED).sqrt();
+        (
+            self.value_scale * P::value(q),
+            self.slope_scale * P::slope_over_q(q),
+        )
+    }
+}
+
+/// Picks the entry of a table for 1, 2, 3 dimensions; other dimensions fail to compile.
+pub(crate) const fn per_dimension(dimension: usize, table: [f64; 3]) -> f64 {
+    assert!(
+        dimension >= 1 && dimension <= 3,
+        "kernels exist in 1, 2 and 3 dimensions"
+    );
+    table[dimension - 1]
+}

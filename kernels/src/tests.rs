@@ -1,0 +1,183 @@
+//! Properties that every smoothing kernel has, over random smoothing lengths.
+
+use proptest::prelude::*;
+
+use crate::{Cohesion, Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4, WendlandC6, WithKernel};
+
+/// Surface of the unit sphere in D dimensions.
+fn unit_sphere(dimension: usize) -> f64 {
+    use std::f64::consts::PI;
+    [2.0, 2.0 * PI, 4.0 * PI][dimension - 1]
+}
+
+/// ∫ f(r) dr over [0, end] by composite Gauss–Legendre (5 points), exact for polynomials of degree 9 on each panel.
+/// `panels` is chosen so that the kernels' joins fall on panel ends.
+fn integral(end: f64, panels: usize, f: impl Fn(f64) -> f64) -> f64 {
+    let nodes: [(f64, f64); 5] = [
+        (0.0, 128.0 / 225.0),
+        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+        (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+        (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+        (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
+    ];
+    let half = 0.5 * end / panels as f64;
+    (0..panels)
+        .flat_map(|panel| {
+            let middle = half * (2 * panel + 1) as f64;
+            nodes.map(|(x, weight)| weight * half * f(middle + half * x))
+        })
+        .sum()
+}
+
+struct Properties {
+    dimension: usize,
+    at: f64,
+}
+
+impl<const D: usize> WithKernel<D> for Properties {
+    type Output = Result<(), TestCaseError>;
+
+    fn call<K: Kernel<D>>(self, w: K) -> Self::Output {
+        assert_eq!(self.dimension, D, "the caller passes its dimension");
+        let (h, end) = (w.smoothing_length(), w.support());
+        let volume = |r: f64| unit_sphere(D) * r.powi(D as i32 - 1);
+
+        let one = integral(end, 60, |r| volume(r) * w.value(r));
+        prop_assert!((one - 1.0).abs() < 1e-11, "integral {one}");
+        // ∫ x·∇W dx = −D: the slope belongs to the value, moment for moment.
+        let moment = integral(end, 60, |r| volume(r) * r * w.slope(r));
+        prop_assert!((moment + D as f64).abs() < 1e-10, "slope moment {moment}");
+
+        let r = self.at * end;
+        prop_assert!(w.value(r) > 0.0 && w.slope(r) <= 0.0, "positive and falling at {r}");
+        prop_assert_eq!(w.value(1.0001 * end), 0.0);
+        prop_assert_eq!(w.slope(1.0001 * end), 0.0);
+        prop_assert_eq!(w.slope(0.0), 0.0);
+        prop_assert!((w.value_at_origin() - w.value(0.0)).abs() <= 1e-15 * w.value(0.0));
+
+        // Monotone: a little farther is never more.
+        prop_assert!(w.value(r + 1e-3 * end) <= w.value(r));
+
+        // slope = derivative of value, also straight across the joins.
+        let step = 1e-5 * h;
+        for r in [r, h, 2.0 * h, 3.0 * h, 0.5 * end, end] {
+            if r > step {
+                let difference = (w.value(r + step) - w.value(r - step)) / (2.0 * step);
+                let bound = 1e-8 * w.value_at_origin() / h;
+                prop_assert!((difference - w.slope(r)).abs() < bound, "slope at {r}: {difference} {}", w.slope(r));
+            }
+        }
+        // Value and slope continue across every join.
+        for join in [0.5 * end, h, 2.0 * h, end] {
+            let gap = 1e-9 * h;
+            let scale = w.value_at_origin();
+            prop_assert!((w.value(join + gap) - w.value(join - gap)).abs() < 1e-7 * scale);
+            prop_assert!((w.slope(join + gap) - w.slope(join - gap)).abs() < 1e-6 * scale / h);
+        }
+
+        // gradient = finite difference of the value; zero at the origin.
+        let direction: [f64; D] = std::array::from_fn(|k| [0.6, -0.64, 0.48][k]);
+        let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let x = direction.map(|d| d / length * r);
+        let gradient = w.gradient(x);
+        for k in 0..D {
+            let at = |shift: f64| {
+                let mut y = x;
+                y[k] += shift;
+                w.value(y.iter().map(|v| v * v).sum::<f64>().sqrt())
+            };
+            let difference = (at(step) - at(-step)) / (2.0 * step);
+            prop_assert!((difference - gradient[k]).abs() < 1e-8 * w.value_at_origin() / h);
+        }
+        prop_assert_eq!(w.gradient([0.0; D]), [0.0; D]);
+
+        // The pair form says the same as value and slope.
+        let (value, slope_over_r) = w.value_and_slope_over_r(r * r);
+        prop_assert!((value - w.value(r)).abs() <= 1e-13 * w.value_at_origin());
+        prop_assert!((slope_over_r * r - w.slope(r)).abs() <= 1e-12 * w.value_at_origin() / h);
+        prop_assert!(w.value_and_slope_over_r(0.0).1.is_finite());
+        Ok(())
+    }
+}
+
+proptest! {
+    #[test]
+    fn every_kernel_in_every_dimension(h in 1e-6..1e6_f64, at in 0.001..0.999_f64) {
+        for kind in KernelKind::ALL {
+            kind.with::<1, _>(h, Properties { dimension: 1, at })?;
+            kind.with::<2, _>(h, Properties { dimension: 2, at })?;
+            kind.with::<3, _>(h, Properties { dimension: 3, at })?;
+        }
+    }
+
+    #[test]
+    fn the_first_moment_vanishes(h in 0.1..10.0_f64) {
+        // ∫ x W dx over a grid symmetric about the origin, each W from its own distance.
+        for kind in KernelKind::ALL {
+            let moment = kind.with::<2, _>(h, FirstMoment);
+            prop_assert!(moment.iter().all(|m| m.abs() < 1e-12), "{kind}: {moment:?}");
+        }
+    }
+
+    #[test]
+    fn scaling(h in 1e-3..1e3_f64, q in 0.0..3.0_f64) {
+        let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs().max(1e-9);
+        prop_assert!(close(Quintic::<1>::new(h).value(q * h) * h, Quintic::<1>::new(1.0).value(q)));
+        prop_assert!(close(Cubic::<2>::new(h).value(q * h) * h * h, Cubic::<2>::new(1.0).value(q)));
+        prop_assert!(close(WendlandC2::<3>::new(h).value(q * h) * h.powi(3), WendlandC2::<3>::new(1.0).value(q)));
+        prop_assert!(close(WendlandC4::<3>::new(h).value(q * h) * h.powi(3), WendlandC4::<3>::new(1.0).value(q)));
+        prop_assert!(close(WendlandC6::<2>::new(h).value(q * h) * h * h, WendlandC6::<2>::new(1.0).value(q)));
+    }
+
+    #[test]
+    fn cohesion_has_its_joins_zeros_and_sign_change(support in 1e-3..1e3_f64, at in 0.0..1.0_f64) {
+        let c = Cohesion::<3>::new(support);
+        let peak = 0.5 / std::f64::consts::PI / support.powi(3);
+        // Peak 32/64/π at half the support, the join of the two branches.
+        prop_assert!((c.value(0.5 * support) / peak - 1.0).abs() < 1e-12);
+        prop_assert!((c.value(0.500_000_1 * support) / peak - 1.0).abs() < 1e-6);
+        prop_assert!((c.value(0.0) / -peak - 1.0).abs() < 1e-12);
+        prop_assert_eq!(c.value(support), 0.0);
+        prop_assert_eq!(c.value(1.5 * support), 0.0);
+        prop_assert_eq!(c.slope(1.5 * support), 0.0);
+        prop_assert_eq!(c.gradient([0.0; 3]), [0.0; 3]);
+        // 128 ((1−s)s)³ = 1 where the sign changes: (1−s)s = 128^(−1/3).
+        let root = 0.5 - (0.25 - 128.0_f64.powf(-1.0 / 3.0)).sqrt();
+        prop_assert!(c.value((root - 1e-3) * support) < 0.0 && c.value((root + 1e-3) * support) > 0.0);
+        let step = 1e-6 * support;
+        let r = at * support;
+        if r > step && (at - 0.5).abs() > 1e-5 && at < 0.99999 {
+            let difference = (c.value(r + step) - c.value(r - step)) / (2.0 * step);
+            prop_assert!((difference - c.slope(r)).abs() < 1e-6 * peak / support);
+        }
+    }
+}
+
+struct FirstMoment;
+
+impl WithKernel<2> for FirstMoment {
+    type Output = [f64; 2];
+
+    fn call<K: Kernel<2>>(self, w: K) -> [f64; 2] {
+        let step = w.support() / 40.0;
+        let mut moment = [0.0; 2];
+        for i in -40..=40 {
+            for j in -40..=40 {
+                let x = [f64::from(i) * step, f64::from(j) * step];
+                let weight = w.value(x[0].hypot(x[1])) * step * step;
+                moment[0] += x[0] / w.support() * weight;
+                moment[1] += x[1] / w.support() * weight;
+            }
+        }
+        moment
+    }
+}
+
+#[test]
+fn names_round_trip() {
+    for kind in KernelKind::ALL {
+        assert_eq!(kind.name().parse(), Ok(kind));
+    }
+    let error = "gauss".parse::<KernelKind>().expect_err("no such kernel");
+    assert!(error.to_string().contains("wendland-c2"), "{error}");
+}

@@ -1,0 +1,110 @@
+//! Axis-aligned boxes.
+
+use crate::point;
+
+/// An axis-aligned box, `min` and `max` included; empty where some `min > max`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds<const D: usize> {
+    /// Lower corner, scene units.
+    pub min: [f64; D],
+    /// Upper corner, scene units.
+    pub max: [f64; D],
+}
+
+impl<const D: usize> Bounds<D> {
+    /// The box that holds nothing and grows by [`Bounds::include`].
+    pub const EMPTY: Self = Self {
+        min: [f64::INFINITY; D],
+        max: [f64::NEG_INFINITY; D],
+    };
+
+    /// The box between two corners.
+    pub fn new(min: [f64; D], max: [f64; D]) -> Self {
+        Self { min, max }
+    }
+
+    /// The smallest box around the points; [`Bounds::EMPTY`] for none.
+    pub fn of(points: &[[f64; D]]) -> Self {
+        let mut bounds = Self::EMPTY;
+        for &p in points {
+            bounds.include(p);
+        }
+        bounds
+    }
+
+    /// Grows to hold `p`.
+    #[inline(always)]
+    pub fn include(&mut self, p: [f64; D]) {
+        for k in 0..D {
+            self.min[k] = self.min[k].min(p[k]);
+            self.max[k] = self.max[k].max(p[k]);
+        }
+    }
+
+    /// The smallest box around both.
+    pub fn union(self, other: Self) -> Self {
+        let mut both = self;
+        for k in 0..D {
+            both.min[k] = both.min[k].min(other.min[k]);
+            both.max[k] = both.max[k].max(other.max[k]);
+        }
+        both
+    }
+
+    /// The box grown by `margin` on every side.
+    pub fn grown(self, margin: f64) -> Self {
+        Self {
+            min: self.min.map(|x| x - margin),
+            max: self.max.map(|x| x + margin),
+        }
+    }
+
+    /// Edge lengths.
+    #[inline(always)]
+    pub fn size(&self) -> [f64; D] {
+        point::sub(self.max, self.min)
+    }
+
+    /// Length of the diagonal.
+    pub fn diagonal(&self) -> f64 {
+        point::norm(self.size())
+    }
+
+    /// Middle of the box.
+    #[inline(always)]
+    pub fn center(&self) -> [f64; D] {
+        point::scale(point::add(self.min, self.max), 0.5)
+    }
+
+    /// Area (2-D) or volume (3-D).
+    pub fn volume(&self) -> f64 {
+        self.size().iter().product()
+    }
+
+    /// Whether no point lies in the box.
+    pub fn is_empty(&self) -> bool {
+        (0..D).any(|k| self.min[k] > self.max[k])
+    }
+
+    /// Whether `p` lies in the box, faces included.
+    #[inline(always)]
+    pub fn contains(&self, p: [f64; D]) -> bool {
+        (0..D).all(|k| self.min[k] <= p[k] && p[k] <= self.max[k])
+    }
+
+    /// Whether `other` lies in the box, faces included.
+    pub fn contains_box(&self, other: &Self) -> bool {
+        self.contains(other.min) && self.contains(other.max)
+    }
+
+    /// Squared distance from `p` to the box, 0 inside.
+    #[inline(always)]
+    pub fn distance_squared(&self, p: [f64; D]) -> f64 {
+        let mut sum = 0.0;
+        for k in 0..D {
+            let gap = (self.min[k] - p[k]).max(p[k] - self.max[k]).max(0.0);
+            sum += gap * gap;
+        }
+        sum
+    }
+}
