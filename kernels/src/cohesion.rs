@@ -51,7 +51,12 @@ impl<const D: usize> Cohesion<D> {
         }
         let t = (1.0 - s) * s;
         let cube_slope = 3.0 * t * t * (1.0 - 2.0 * s);
-        self.scale / self.support * if s > 0.5 { cube_slope } else { 2.0 * cube_slope }
+        self.scale / self.support
+            * if s > 0.5 {
+                cube_slope
+            } else {
+                2.0 * cube_slope
+            }
     }
 
     /// The gradient of C for `difference` = x_i − x_j; zero (not NaN) where the two coincide.

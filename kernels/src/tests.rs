@@ -2,7 +2,9 @@
 
 use proptest::prelude::*;
 
-use crate::{Cohesion, Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4, WendlandC6, WithKernel};
+use crate::{
+    Cohesion, Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4, WendlandC6, WithKernel,
+};
 
 /// Surface of the unit sphere in D dimensions.
 fn unit_sphere(dimension: usize) -> f64 {
@@ -49,7 +51,10 @@ impl<const D: usize> WithKernel<D> for Properties {
         prop_assert!((moment + D as f64).abs() < 1e-10, "slope moment {moment}");
 
         let r = self.at * end;
-        prop_assert!(w.value(r) > 0.0 && w.slope(r) <= 0.0, "positive and falling at {r}");
+        prop_assert!(
+            w.value(r) > 0.0 && w.slope(r) <= 0.0,
+            "positive and falling at {r}"
+        );
         prop_assert_eq!(w.value(1.0001 * end), 0.0);
         prop_assert_eq!(w.slope(1.0001 * end), 0.0);
         prop_assert_eq!(w.slope(0.0), 0.0);
@@ -64,7 +69,11 @@ impl<const D: usize> WithKernel<D> for Properties {
             if r > step {
                 let difference = (w.value(r + step) - w.value(r - step)) / (2.0 * step);
                 let bound = 1e-8 * w.value_at_origin() / h;
-                prop_assert!((difference - w.slope(r)).abs() < bound, "slope at {r}: {difference} {}", w.slope(r));
+                prop_assert!(
+                    (difference - w.slope(r)).abs() < bound,
+                    "slope at {r}: {difference} {}",
+                    w.slope(r)
+                );
             }
         }
         // Value and slope continue across every join.

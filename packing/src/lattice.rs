@@ -1,0 +1,348 @@
+//! Lattices that fill a box exactly, and go on beyond it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use sphpack_neighbors::{Bounds, Domain};
+
+/// A regular arrangement of particles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Lattice {
+    /// 2-D, one site per square cell.
+    Square,
+    /// 2-D, rows shifted by half a spacing; 001 fig. 6b.
+    Hexagonal,
+    /// 3-D, one site per cubic cell.
+    SimpleCubic,
+    /// 3-D, body-centred cubic.
+    Bcc,
+    /// 3-D, face-centred cubic.
+    Fcc,
+    /// 3-D, hexagonal close-packed.
+    Hcp,
+}
+
+/// A lattice name that is none.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "no lattice is called \"{0}\"; there are square, hexagonal (2-D), simple-cubic, bcc, fcc, hcp (3-D)"
+)]
+pub struct UnknownLattice(pub String);
+
+impl FromStr for Lattice {
+    type Err = UnknownLattice;
+
+    fn from_str(name: &str) -> Result<Self, UnknownLattice> {
+        Self::ALL
+            .into_iter()
+            .find(|lattice| lattice.name() == name)
+            .ok_or_else(|| UnknownLattice(name.to_owned()))
+    }
+}
+
+impl fmt::Display for Lattice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Lattice {
+    /// Every lattice.
+    pub const ALL: [Self; 6] = [
+        Self::Square,
+        Self::Hexagonal,
+        Self::SimpleCubic,
+        Self::Bcc,
+        Self::Fcc,
+        Self::Hcp,
+    ];
+
+    /// The name that scenes and reports use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Square => "square",
+            Self::Hexagonal => "hexagonal",
+            Self::SimpleCubic => "simple-cubic",
+            Self::Bcc => "bcc",
+            Self::Fcc => "fcc",
+            Self::Hcp => "hcp",
+        }
+    }
+
+    /// 2 or 3.
+    pub fn dimension(self) -> usize {
+        match self {
+            Self::Square | Self::Hexagonal => 2,
+            _ => 3,
+        }
+    }
+
+    /// What `lattice = "auto"` means: hexagonal in 2-D, body-centred cubic in 3-D.
+    pub fn auto(dimension: usize) -> Self {
+        if dimension == 2 {
+            Self::Hexagonal
+        } else {
+            Self::Bcc
+        }
+    }
+
+    /// Edge lengths of the rectangular cell for a volume of one per site.
+    fn cell(self) -> [f64; 3] {
+        let root3 = 3.0_f64.sqrt();
+        match self {
+            Self::Square | Self::SimpleCubic => [1.0, 1.0, 1.0],
+            Self::Hexagonal => {
+                let a = (2.0 / root3).sqrt();
+                [a, root3 * a, 1.0]
+            }
+            Self::Bcc => [2.0_f64.cbrt(); 3],
+            Self::Fcc => [4.0_f64.cbrt(); 3],
+            Self::Hcp => {
+                let a = 2.0_f64.powf(1.0 / 6.0);
+                [a, root3 * a, (8.0_f64 / 3.0).sqrt() * a]
+            }
+        }
+    }
+
+    /// Sites in the cell, as fractions of its edges, placed evenly about the cell's middle.
+    fn sites(self) -> &'static [[f64; 3]] {
+        const SIXTH: f64 = 1.0 / 6.0;
+        match self {
+            Self::Square | Self::SimpleCubic => &[[0.5, 0.5, 0.5]],
+            Self::Hexagonal => &[[0.25, 0.25, 0.0], [0.75, 0.75, 0.0]],
+            Self::Bcc => &[[0.25, 0.25, 0.25], [0.75, 0.75, 0.75]],
+            Self::Fcc => &[
+                [0.25, 0.25, 0.25],
+                [0.75, 0.75, 0.25],
+                [0.75, 0.25, 0.75],
+                [0.25, 0.75, 0.75],
+            ],
+            Self::Hcp => &[
+                [0.25, SIXTH, 0.25],
+                [0.75, SIXTH + 0.5, 0.25],
+                [0.25, 5.0 * SIXTH, 0.75],
+                [0.75, 2.0 * SIXTH, 0.75],
+            ],
+        }
+    }
+
+    /// The lattice stretched to fill a box with a whole number of cells along each axis, at about one site per
+    /// `spacing`^D. Of the whole numbers next to the ideal ones it takes those that keep the volume per site closest
+    /// to `spacing`^D and the stretch most even.
+    ///
+    /// # Panics
+    /// For a lattice of another dimension than `D`, or an empty box: callers check.
+    pub fn fill<const D: usize>(self, bounds: Bounds<D>, spacing: f64) -> Filling<D> {
+        assert_eq!(
+            self.dimension(),
+            D,
+            "a lattice fills boxes of its own dimension"
+        );
+        let unit = self.cell();
+        let size = bounds.size();
+        let mut best: Option<(f64, [u64; D])> = None;
+        for choice in 0..1_u32 << D {
+            let cells: [u64; D] = std::array::from_fn(|k| {
+                let ideal = size[k] / (spacing * unit[k]);
+                let number = if choice >> k & 1 == 1 {
+                    ideal.ceil()
+                } else {
+                    ideal.floor()
+                };
+                number.clamp(1.0, 1e15) as u64
+            });
+            let stretch: [f64; D] =
+                std::array::from_fn(|k| (size[k] / (cells[k] as f64 * spacing * unit[k])).ln());
+            let mean = stretch.iter().sum::<f64>() / D as f64;
+            let uneven: f64 = stretch.iter().map(|s| (s - mean) * (s - mean)).sum();
+            let cost = uneven + 4.0 * mean * mean;
+            if best.is_none_or(|(least, _)| cost < least - 1e-12) {
+                best = Some((cost, cells));
+            }
+        }
+        let (_, cells) = best.expect("at least one choice");
+        Filling {
+            lattice: self,
+            bounds,
+            cells,
+        }
+    }
+}
+
+/// A lattice fitted to a box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Filling<const D: usize> {
+    lattice: Lattice,
+    bounds: Bounds<D>,
+    cells: [u64; D],
+}
+
+impl<const D: usize> Filling<D> {
+    /// Number of sites in the box; saturates.
+    pub fn count(&self) -> u64 {
+        self.cells
+            .iter()
+            .fold(self.lattice.sites().len() as u64, |n, &c| {
+                n.saturating_mul(c)
+            })
+    }
+
+    /// The volume of one site: box volume / number of sites.
+    pub fn volume_per_site(&self) -> f64 {
+        self.bounds.volume() / self.count() as f64
+    }
+
+    /// Edge lengths of the stretched cell, scene units.
+    pub fn cell(&self) -> [f64; D] {
+        let size = self.bounds.size();
+        std::array::from_fn(|k| size[k] / self.cells[k] as f64)
+    }
+
+    /// The sites inside the box, cell by cell.
+    pub fn sites(&self) -> Vec<[f64; D]> {
+        let mut sites = Vec::with_capacity(self.count() as usize);
+        self.visit([0; D], self.cells.map(|c| c as i64), |p| sites.push(p));
+        sites
+    }
+
+    /// About how many sites [`Filling::continued`] gives.
+    pub fn continued_count(&self, domain: &Domain<D>, depth: f64) -> f64 {
+        let outer: f64 = (0..D)
+            .map(|k| domain.bounds.size()[k] + if domain.periodic[k] { 0.0 } else { 2.0 * depth })
+            .product();
+        (outer - self.bounds.volume()) / self.volume_per_site()
+    }
+
+    /// The same lattice continued beyond each side that is not periodic, `depth` deep.
+    pub fn continued(&self, domain: &Domain<D>, depth: f64) -> Vec<[f64; D]> {
+        let cell = self.cell();
+        let extra: [i64; D] = std::array::from_fn(|k| {
+            if domain.periodic[k] {
+                0
+            } else {
+                (depth / cell[k]).ceil() as i64
+            }
+        });
+        let outer = self.bounds.grown(depth);
+        let mut sites = Vec::new();
+        self.visit(
+            extra.map(|e| -e),
+            std::array::from_fn(|k| self.cells[k] as i64 + extra[k]),
+            |p| {
+                if outer.contains(p) && !self.bounds.contains(p) {
+                    sites.push(p);
+                }
+            },
+        );
+        sites
+    }
+
+    fn visit(&self, from: [i64; D], to: [i64; D], mut f: impl FnMut([f64; D])) {
+        let cell = self.cell();
+        let mut index = from;
+        if (0..D).any(|k| from[k] >= to[k]) {
+            return;
+        }
+        loop {
+            for site in self.lattice.sites() {
+                f(std::array::from_fn(|k| {
+                    self.bounds.min[k] + cell[k] * (index[k] as f64 + site[k])
+                }));
+            }
+            let mut axis = D;
+            loop {
+                if axis == 0 {
+                    return;
+                }
+                axis -= 1;
+                index[axis] += 1;
+                if index[axis] < to[axis] {
+                    break;
+                }
+                index[axis] = from[axis];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use sphpack_neighbors::point;
+
+    /// Nearest-neighbour distance over ∆s and coordination number of the unstretched lattice.
+    fn expected(lattice: Lattice) -> (f64, usize) {
+        match lattice {
+            Lattice::Square => (1.0, 4),
+            Lattice::Hexagonal => ((2.0 / 3.0_f64.sqrt()).sqrt(), 6),
+            Lattice::SimpleCubic => (1.0, 6),
+            Lattice::Bcc => (2.0_f64.cbrt() * 0.75_f64.sqrt(), 8),
+            Lattice::Fcc => (4.0_f64.cbrt() / 2.0_f64.sqrt(), 12),
+            Lattice::Hcp => (2.0_f64.powf(1.0 / 6.0), 12),
+        }
+    }
+
+    fn check_neighbours<const D: usize>(lattice: Lattice) {
+        // A box of whole unstretched cells: every site, frozen continuation included, has the right neighbours.
+        let cell = lattice.cell();
+        let max: [f64; D] = std::array::from_fn(|k| 3.0 * cell[k]);
+        let domain = Domain::new([0.0; D], max);
+        let filling = lattice.fill(domain.bounds, 1.0);
+        let inner = filling.sites();
+        assert_eq!(inner.len() as u64, filling.count());
+        assert!((filling.volume_per_site() - 1.0).abs() < 1e-12);
+        assert!(
+            inner.iter().all(|&p| domain.bounds.contains(p)),
+            "{lattice}: sites inside the box"
+        );
+        let mut all = filling.continued(&domain, 3.0);
+        all.extend(&inner);
+        let (nearest, coordination) = expected(lattice);
+        for &p in &inner {
+            let mut distances: Vec<f64> = all.iter().map(|&q| point::distance(p, q)).collect();
+            distances.sort_by(f64::total_cmp);
+            assert!(
+                (distances[1] - nearest).abs() < 1e-9,
+                "{lattice}: {} {nearest}",
+                distances[1]
+            );
+            let touching = distances
+                .iter()
+                .filter(|&&d| d > 0.0 && d < nearest * 1.001)
+                .count();
+            assert_eq!(touching, coordination, "{lattice}");
+        }
+    }
+
+    #[test]
+    fn neighbours_of_every_lattice() {
+        for lattice in Lattice::ALL {
+            if lattice.dimension() == 2 {
+                check_neighbours::<2>(lattice);
+            } else {
+                check_neighbours::<3>(lattice);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn fills_any_box(size in prop::array::uniform3(0.5..4.0_f64), spacing in 0.1..0.4_f64) {
+            for lattice in Lattice::ALL.into_iter().filter(|l| l.dimension() == 3) {
+                let bounds = Bounds::new([-1.0; 3], size.map(|s| s - 1.0));
+                let filling = lattice.fill(bounds, spacing);
+                let sites = filling.sites();
+                prop_assert_eq!(sites.len() as u64, filling.count());
+                prop_assert!(sites.iter().all(|&p| bounds.contains(p)));
+                prop_assert!((filling.volume_per_site() * sites.len() as f64 / bounds.volume() - 1.0).abs() < 1e-12);
+            }
+        }
+
+        #[test]
+        fn scales_with_the_unit(size in prop::array::uniform2(1.0..4.0_f64), unit in prop::sample::select(vec![1e-6, 1e6])) {
+            let at = |u: f64| Lattice::Hexagonal.fill(Bounds::new([0.0; 2], size.map(|s| s * u)), 0.1 * u);
+            prop_assert_eq!(at(1.0).count(), at(unit).count());
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Watching a packing while it runs, and stopping it.
+
+use std::ops::ControlFlow;
+
+/// What a packing is busy with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// Surfaces are moved inward, areas and counts are taken.
+    Geometry,
+    /// Particles are placed on the lattice.
+    Seeding,
+    /// Particles are captured by the surface while they settle (hybrid).
+    Capture,
+    /// Particles settle.
+    Settling,
+}
+
+impl Phase {
+    /// The word that progress lines use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Geometry => "geometry",
+            Self::Seeding => "seeding",
+            Self::Capture => "capture",
+            Self::Settling => "settling",
+        }
+    }
+}
+
+/// Where a packing stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// What it is busy with.
+    pub phase: Phase,
+    /// Force evaluations so far.
+    pub evaluation: usize,
+    /// The evaluation at which it gives up.
+    pub max_evaluations: usize,
+    /// What the stop looks at: u_max ∆t/h for damped dynamics, the largest force for minimisers. Dimensionless.
+    pub criterion: f64,
+    /// The value of `criterion` at which it stops.
+    pub tolerance: f64,
+    /// Particles on surfaces so far.
+    pub on_surface: usize,
+    /// Particles that the surfaces should carry (N_s).
+    pub target: usize,
+    /// Seconds since the packing began.
+    pub seconds: f64,
+}
+
+/// A line of a packing's history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Force evaluations so far.
+    pub evaluation: usize,
+    /// Energy of background pressure and repulsion, relative to that of the first sample's particle count: E / (p_b V N).
+    pub energy: f64,
+    /// The largest residual h |Σ V ∇W| of a free particle.
+    pub residual: f64,
+    /// max |Γ − 1|.
+    pub linf: f64,
+    /// Seconds since the packing began.
+    pub seconds: f64,
+}
+
+/// Told how a packing goes on; it may stop it.
+///
+/// Nothing that an observer does changes the result, except when it stops.
+pub trait Observer {
+    /// Called at the start of every phase, and every few evaluations. `Break` ends the packing with what there is.
+    fn progress(&mut self, progress: &Progress) -> ControlFlow<()>;
+}
+
+/// Watches nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Silent;
+
+impl Observer for Silent {
+    fn progress(&mut self, _: &Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}

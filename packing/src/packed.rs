@@ -1,0 +1,88 @@
+//! What a packing gives back.
+
+use std::sync::Arc;
+
+use sphpack_geometry::Surface;
+use sphpack_kernels::KernelKind;
+use sphpack_neighbors::Domain;
+
+use crate::observer::Sample;
+use crate::particles::Particles;
+
+/// Why a packing stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StopReason {
+    /// The tolerance was reached.
+    Converged,
+    /// `max_iterations` came first.
+    IterationLimit,
+    /// Nothing changed any more although the tolerance was not reached.
+    Stagnated,
+    /// The observer stopped it.
+    Interrupted,
+}
+
+impl StopReason {
+    /// The word that reports use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::IterationLimit => "iteration-limit",
+            Self::Stagnated => "stagnated",
+            Self::Interrupted => "interrupted",
+        }
+    }
+}
+
+/// Where the time went, in seconds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Seconds {
+    /// Moving surfaces inward, areas and counts.
+    pub geometry: f64,
+    /// Placing particles.
+    pub seeding: f64,
+    /// Keeping the neighbour lists.
+    pub neighbors: f64,
+    /// Density and forces.
+    pub forces: f64,
+    /// Keeping boundary particles on their surface.
+    pub projection: f64,
+    /// The whole packing.
+    pub total: f64,
+}
+
+/// A surface as the particles see it.
+#[derive(Debug, Clone)]
+pub struct ParticleSurface<const D: usize> {
+    /// The set that boundary particles sit on: the body's surface, moved inward by the inset.
+    pub surface: Arc<dyn Surface<D>>,
+    /// N_s = A_s/∆s^(D−1), the number of particles that it should carry, rounded.
+    pub target_count: usize,
+}
+
+/// Particles at rest, with what is known about them and how they came there.
+#[derive(Debug, Clone)]
+pub struct Packed<const D: usize> {
+    /// All particles, frozen ones included.
+    pub particles: Particles<D>,
+    /// The box.
+    pub domain: Domain<D>,
+    /// ∆s, scene units.
+    pub spacing: f64,
+    /// The kernel that packed.
+    pub kernel: KernelKind,
+    /// Its smoothing length over ∆s.
+    pub h_over_spacing: f64,
+    /// The surface of each body, in the order of the problem's bodies.
+    pub surfaces: Vec<ParticleSurface<D>>,
+    /// Why it stopped.
+    pub stop_reason: StopReason,
+    /// Iterations of the method.
+    pub iterations: usize,
+    /// Evaluations of density and force.
+    pub force_evaluations: usize,
+    /// Figures along the way.
+    pub history: Vec<Sample>,
+    /// Where the time went.
+    pub seconds: Seconds,
+}

@@ -1,0 +1,97 @@
+//! Particles as a structure of arrays.
+
+/// How a particle may move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// Moves freely.
+    Free,
+    /// Moves on the surface of its body.
+    Boundary,
+    /// Sits on a corner and never moves.
+    Fixed,
+    /// Continues the lattice outside the domain and never moves.
+    Frozen,
+}
+
+impl Kind {
+    /// Every kind, in the order of its number in files.
+    pub const ALL: [Self; 4] = [Self::Free, Self::Boundary, Self::Fixed, Self::Frozen];
+
+    /// The name that files and reports use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Free => "free",
+            Self::Boundary => "boundary",
+            Self::Fixed => "fixed",
+            Self::Frozen => "frozen",
+        }
+    }
+
+    /// Whether the particle sits on a surface.
+    pub fn is_on_surface(self) -> bool {
+        matches!(self, Self::Boundary | Self::Fixed)
+    }
+
+    /// Whether the particle may move at all.
+    pub fn is_mobile(self) -> bool {
+        matches!(self, Self::Free | Self::Boundary)
+    }
+}
+
+/// Particles in the domain and the frozen ones around it. All arrays have one entry per particle, in the same order;
+/// `id` follows a particle through every reordering.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Particles<const D: usize> {
+    /// A number that stays with the particle: 0, 1, 2, … in the order of seeding.
+    pub id: Vec<u32>,
+    /// Positions, scene units.
+    pub position: Vec<[f64; D]>,
+    /// How each particle may move.
+    pub kind: Vec<Kind>,
+    /// Volume (area in 2-D) of each particle, scene units to the power D.
+    pub volume: Vec<f64>,
+    /// For boundary and fixed particles the index of the body whose surface they sit on.
+    pub body: Vec<Option<u16>>,
+}
+
+impl<const D: usize> Particles<D> {
+    /// Number of particles, frozen ones included.
+    pub fn len(&self) -> usize {
+        self.id.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.id.is_empty()
+    }
+
+    /// Appends a particle; its id is its place.
+    ///
+    /// # Panics
+    /// Beyond 2³² particles; [`crate::Problem::estimate`] refuses such problems first.
+    pub fn push(&mut self, position: [f64; D], kind: Kind, volume: f64, body: Option<u16>) {
+        let id = u32::try_from(self.id.len()).expect("fewer than 2^32 particles");
+        self.id.push(id);
+        self.position.push(position);
+        self.kind.push(kind);
+        self.volume.push(volume);
+        self.body.push(body);
+    }
+
+    /// How many particles are of a kind.
+    pub fn count(&self, kind: Kind) -> usize {
+        self.kind.iter().filter(|&&k| k == kind).count()
+    }
+
+    /// The particles in another order: entry `i` of the result is entry `order[i]` of this. `order` may leave
+    /// particles out.
+    pub fn selected(&self, order: &[usize]) -> Self {
+        Self {
+            id: order.iter().map(|&i| self.id[i]).collect(),
+            position: order.iter().map(|&i| self.position[i]).collect(),
+            kind: order.iter().map(|&i| self.kind[i]).collect(),
+            volume: order.iter().map(|&i| self.volume[i]).collect(),
+            body: order.iter().map(|&i| self.body[i]).collect(),
+        }
+    }
+}

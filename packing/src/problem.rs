@@ -1,0 +1,319 @@
+//! What is to be packed.
+
+use std::sync::Arc;
+
+use sphpack_geometry::{GeometryError, Surface};
+use sphpack_kernels::KernelKind;
+use sphpack_neighbors::Domain;
+
+use crate::lattice::{Filling, Lattice};
+
+/// How deep inside the true surface the boundary particles sit, unless a body says otherwise: ∆s/2 (001 eq. 11).
+pub const DEFAULT_INSET_OVER_SPACING: f64 = 0.5;
+
+/// A body and how its surface is placed.
+#[derive(Debug, Clone)]
+pub struct Body<const D: usize> {
+    /// The name that files and reports use.
+    pub name: String,
+    /// The true surface.
+    pub surface: Arc<dyn Surface<D>>,
+    /// How far inside the true surface the boundary particles sit, in ∆s: ½ puts the true surface between the last
+    /// solid and the first fluid particle, 0 puts particles on it.
+    pub inset_over_spacing: f64,
+}
+
+/// How the frozen particles outside the domain are arranged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FrozenLayout {
+    /// The lattice of the inside, continued.
+    #[default]
+    Lattice,
+    /// A square or simple cubic ring, as 001 fig. 1 draws it.
+    Square,
+}
+
+/// Bodies in a box, and how to fill it with particles.
+#[derive(Debug, Clone)]
+pub struct Problem<const D: usize> {
+    /// The box.
+    pub domain: Domain<D>,
+    /// ∆s, scene units: the D-th root of a particle's volume.
+    pub spacing: f64,
+    /// The bodies; a particle belongs to the first that holds it.
+    pub bodies: Vec<Body<D>>,
+    /// The smoothing kernel.
+    pub kernel: KernelKind,
+    /// Smoothing length over ∆s.
+    pub h_over_spacing: f64,
+    /// The starting lattice; `None` chooses.
+    pub lattice: Option<Lattice>,
+    /// The frozen particles' arrangement.
+    pub frozen: FrozenLayout,
+}
+
+/// Why a problem cannot be packed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PackingError {
+    /// A number that must be positive and finite is not.
+    #[error("{name} is {value}; it must be a positive, finite number")]
+    NotPositive {
+        /// What the number is.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// The spacing does not fit into the box.
+    #[error(
+        "the spacing {spacing} is larger than the domain, which is only {size} wide; use a smaller spacing"
+    )]
+    SpacingLargerThanDomain {
+        /// ∆s.
+        spacing: f64,
+        /// The box's shortest edge.
+        size: f64,
+    },
+    /// The spacing is larger than a body.
+    #[error("the spacing {spacing} is larger than body \"{body}\", which is only {size} across; use a spacing below {}", .size / 4.0)]
+    SpacingLargerThanBody {
+        /// The body's name.
+        body: String,
+        /// ∆s.
+        spacing: f64,
+        /// The longest edge of the body's box.
+        size: f64,
+    },
+    /// A body sticks out of the domain.
+    #[error(
+        "body \"{body}\" reaches outside the domain (body from {body_min:?} to {body_max:?}); enlarge the domain, or use margin = … instead of min and max"
+    )]
+    OutsideDomain {
+        /// The body's name.
+        body: String,
+        /// Lower corner of its box.
+        body_min: Vec<f64>,
+        /// Upper corner of its box.
+        body_max: Vec<f64>,
+    },
+    /// A periodic axis is too short for the kernel.
+    #[error(
+        "axis {axis} is periodic but only {size} long, less than twice the reach {reach} of the kernel; make it longer, or the spacing smaller"
+    )]
+    PeriodTooShort {
+        /// 0, 1, 2.
+        axis: usize,
+        /// The edge.
+        size: f64,
+        /// Support radius and skin.
+        reach: f64,
+    },
+    /// A lattice of the wrong dimension.
+    #[error("lattice \"{lattice}\" is {}-dimensional, the scene is {dimension}-dimensional", .lattice.dimension())]
+    WrongLattice {
+        /// The lattice.
+        lattice: Lattice,
+        /// The scene's dimension.
+        dimension: usize,
+    },
+    /// More particles than fit.
+    #[error("about {particles:.3e} particles would need {:.1} GiB, more than the {:.1} GiB allowed; use a larger spacing or a smaller domain", *.needed_bytes / 1_073_741_824.0, *.allowed_bytes / 1_073_741_824.0)]
+    TooLarge {
+        /// Particles, frozen included.
+        particles: f64,
+        /// What they need.
+        needed_bytes: f64,
+        /// What may be used.
+        allowed_bytes: f64,
+    },
+    /// A body's particle surface cannot be built.
+    #[error("body \"{body}\": {source}")]
+    Surface {
+        /// The body's name.
+        body: String,
+        /// What is wrong.
+        source: GeometryError,
+    },
+}
+
+/// What a packing will need.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Particles in the box.
+    pub particles: f64,
+    /// Frozen particles around it.
+    pub frozen: f64,
+    /// Neighbours within the support of one particle.
+    pub neighbors: f64,
+    /// Peak memory of the packing, bytes, to about a third.
+    pub memory_bytes: f64,
+    /// Core-seconds of one evaluation of density and force, to a factor of about two.
+    pub seconds_per_evaluation: f64,
+}
+
+impl<const D: usize> Problem<D> {
+    /// An empty box to be filled at spacing ∆s, with the quintic kernel at h/∆s = 1.2.
+    pub fn new(domain: Domain<D>, spacing: f64) -> Self {
+        Self {
+            domain,
+            spacing,
+            bodies: Vec::new(),
+            kernel: KernelKind::Quintic,
+            h_over_spacing: 1.2,
+            lattice: None,
+            frozen: FrozenLayout::default(),
+        }
+    }
+
+    /// Adds a body by its true surface; its boundary particles will sit ∆s/2 inside.
+    #[must_use]
+    pub fn body(self, name: &str, surface: impl Surface<D> + 'static) -> Self {
+        self.placed_body(Body {
+            name: name.to_owned(),
+            surface: Arc::new(surface),
+            inset_over_spacing: DEFAULT_INSET_OVER_SPACING,
+        })
+    }
+
+    /// Adds a body.
+    #[must_use]
+    pub fn placed_body(mut self, body: Body<D>) -> Self {
+        self.bodies.push(body);
+        self
+    }
+
+    /// Smoothing length, scene units.
+    pub fn smoothing_length(&self) -> f64 {
+        self.h_over_spacing * self.spacing
+    }
+
+    /// Support radius of the kernel, scene units.
+    pub fn support(&self) -> f64 {
+        self.kernel.support_over_h() * self.smoothing_length()
+    }
+
+    /// The lattice that the packing starts from.
+    pub fn chosen_lattice(&self) -> Lattice {
+        self.lattice.unwrap_or_else(|| Lattice::auto(D))
+    }
+
+    /// The lattice fitted to the box. The problem must have passed [`Problem::check`].
+    pub fn filling(&self) -> Filling<D> {
+        self.chosen_lattice().fill(self.domain.bounds, self.spacing)
+    }
+
+    /// How deep the frozen layer is, scene units: the support and the skin of the neighbour lists.
+    pub fn frozen_depth(&self) -> f64 {
+        self.support() + self.skin()
+    }
+
+    /// The skin of the neighbour lists, scene units.
+    pub fn skin(&self) -> f64 {
+        SKIN_OVER_SPACING * self.spacing
+    }
+
+    /// Whether the problem makes sense, before anything large is allocated.
+    ///
+    /// # Errors
+    /// The first [`PackingError`] found.
+    pub fn check(&self) -> Result<(), PackingError> {
+        for (name, value) in [
+            ("the spacing", self.spacing),
+            ("h_over_spacing", self.h_over_spacing),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(PackingError::NotPositive { name, value });
+            }
+        }
+        let size = self.domain.bounds.size();
+        for &edge in &size {
+            if !(edge > 0.0 && edge.is_finite()) {
+                return Err(PackingError::NotPositive {
+                    name: "an edge of the domain",
+                    value: edge,
+                });
+            }
+        }
+        let shortest = size.iter().copied().fold(f64::INFINITY, f64::min);
+        if self.spacing > shortest {
+            return Err(PackingError::SpacingLargerThanDomain {
+                spacing: self.spacing,
+                size: shortest,
+            });
+        }
+        let lattice = self.chosen_lattice();
+        if lattice.dimension() != D {
+            return Err(PackingError::WrongLattice {
+                lattice,
+                dimension: D,
+            });
+        }
+        let reach = self.frozen_depth();
+        for axis in 0..D {
+            if self.domain.periodic[axis] && size[axis] < 2.0 * reach {
+                return Err(PackingError::PeriodTooShort {
+                    axis,
+                    size: size[axis],
+                    reach,
+                });
+            }
+        }
+        for body in &self.bodies {
+            let bounds = body.surface.bounds();
+            let across = bounds.size().into_iter().fold(0.0, f64::max);
+            if self.spacing > across {
+                return Err(PackingError::SpacingLargerThanBody {
+                    body: body.name.clone(),
+                    spacing: self.spacing,
+                    size: across,
+                });
+            }
+            if !self
+                .domain
+                .bounds
+                .grown(1e-9 * self.spacing)
+                .contains_box(&bounds)
+            {
+                return Err(PackingError::OutsideDomain {
+                    body: body.name.clone(),
+                    body_min: bounds.min.to_vec(),
+                    body_max: bounds.max.to_vec(),
+                });
+            }
+            if !(body.inset_over_spacing >= 0.0 && body.inset_over_spacing.is_finite()) {
+                return Err(PackingError::NotPositive {
+                    name: "the inset of a surface",
+                    value: body.inset_over_spacing,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// What the packing will need, from volumes alone; allocates nothing.
+    ///
+    /// # Errors
+    /// Those of [`Problem::check`].
+    pub fn estimate(&self) -> Result<Estimate, PackingError> {
+        self.check()?;
+        let filling = self.filling();
+        let particles = filling.count() as f64;
+        let frozen = filling.continued_count(&self.domain, self.frozen_depth());
+        let unit_ball = [std::f64::consts::PI, 4.0 / 3.0 * std::f64::consts::PI][D - 2];
+        let per_site = filling.volume_per_site();
+        let neighbors = unit_ball * self.support().powi(D as i32) / per_site;
+        // Blocks of eight list every candidate within the reach of any of the eight: about twice the neighbours.
+        let candidates = 2.2 * unit_ball * self.frozen_depth().powi(D as i32) / per_site;
+        let bytes = particles * (420.0 + 4.0 * candidates / 8.0) + frozen * 220.0;
+        Ok(Estimate {
+            particles,
+            frozen,
+            neighbors,
+            memory_bytes: bytes + 3e7,
+            seconds_per_evaluation: particles * neighbors / 1.5e8,
+        })
+    }
+}
+
+/// Skin of the neighbour lists in units of ∆s: how far two particles may approach before a list must be built anew.
+pub(crate) const SKIN_OVER_SPACING: f64 = 0.3;
