@@ -1,6 +1,28 @@
-//! Who is near whom (work in progress).
-pub mod bounds;
-pub mod domain;
+//! Who is near whom: neighbours of particles in two and three dimensions.
+//!
+//! - [`CellList`]: for sets that move. Flat arrays, a skin so that one list lasts several steps, optional periodic
+//!   axes; the pair loop runs over blocks of [`LANES`] particles against their shared candidates.
+//! - [`KdTree`]: for sets that stand still. Nearest points and points within a radius.
+//! - [`point`], [`Bounds`], [`Domain`]: arithmetic on `[f64; D]`, boxes, boxes with periodic axes.
+//!
+//! Invariants: the answer never depends on the number of threads; a list that is up to date is not built again, and
+//! using one does not allocate.
+
+mod bounds;
+mod cell_list;
+mod cells;
+mod clusters;
+mod domain;
+mod kd_tree;
 pub mod point;
+
+#[cfg(test)]
+mod tests;
+
 pub use bounds::Bounds;
+pub use cell_list::{Block, CellList, Slot};
 pub use domain::Domain;
+pub use kd_tree::{Found, KdTree, KdTreeError};
+
+/// Particles in a block: eight doubles fill an AVX-512 register, or two AVX ones.
+pub const LANES: usize = 8;

@@ -1,0 +1,372 @@
+//! The neighbour list of a set that moves.
+
+use rayon::prelude::*;
+
+use crate::cells::Cells;
+use crate::clusters::cluster;
+use crate::{Bounds, Domain, LANES, point};
+
+/// A source as the pair loop reads it: coordinates (zero beyond D) and its weight, usually the volume, last.
+pub type Slot = [f64; 4];
+
+/// Blocks that one task handles; also the fixed unit of reductions.
+const BLOCKS_PER_CHUNK: usize = 64;
+
+/// Neighbours of moving particles: blocks of [`LANES`] particles that share one list of candidates.
+///
+/// Some particles are *targets* (their neighbours are wanted), all are *sources*. A list made for a support radius
+/// plus a skin serves until some particle has moved half the skin; [`CellList::update`] sees to that.
+///
+/// Memory: about 4 bytes per candidate and block, 40 bytes per particle. Cost of a build: O(n log n), parallel.
+/// The same bits for any number of threads.
+///
+/// ```
+/// use sphpack_neighbors::{CellList, Domain};
+///
+/// let points = vec![[0.0, 0.0], [0.3, 0.0], [0.9, 0.9]];
+/// let mut near = CellList::new(&Domain::new([0.0, 0.0], [1.0, 1.0]), 0.5);
+/// near.update(&points, |_| true);
+/// assert_eq!(near.of(0, &points), vec![1]);
+/// ```
+#[derive(Debug, Clone)]
+pub struct CellList<const D: usize> {
+    domain: Domain<D>,
+    support: f64,
+    skin: f64,
+    /// Positions at the last build.
+    reference: Vec<[f64; D]>,
+    targets: usize,
+    /// The particle in each slot. Slots `0..targets` are the targets, block by block; the other sources follow.
+    particle: Vec<u32>,
+    /// What to add to a particle's position to get its slot's; empty without periodic axes.
+    shift: Vec<[f64; D]>,
+    slot_of: Vec<u32>,
+    chunks: Vec<Chunk>,
+    cells: Cells<D>,
+    builds: usize,
+}
+
+#[derive(Debug, Clone, Default)]
+struct Chunk {
+    /// First candidate of each block, and the end of the last.
+    start: Vec<u32>,
+    candidates: Vec<u32>,
+}
+
+/// Up to [`LANES`] targets and the slots of everything that may be within their support.
+#[derive(Debug, Clone, Copy)]
+pub struct Block<'a> {
+    /// The targets are the slots `first_slot .. first_slot + len`.
+    pub first_slot: usize,
+    /// How many targets there are, 1 … [`LANES`].
+    pub len: usize,
+    /// Slots of the candidates, each once, the targets themselves among them.
+    pub candidates: &'a [u32],
+}
+
+impl<const D: usize> CellList<D> {
+    /// An empty list for the given support radius (scene units), without skin.
+    pub fn new(domain: &Domain<D>, support: f64) -> Self {
+        Self {
+            domain: *domain,
+            support,
+            skin: 0.0,
+            reference: Vec::new(),
+            targets: 0,
+            particle: Vec::new(),
+            shift: Vec::new(),
+            slot_of: Vec::new(),
+            chunks: Vec::new(),
+            cells: Cells::default(),
+            builds: 0,
+        }
+    }
+
+    /// Makes lists that hold until some particle has moved half of `skin` (scene units).
+    #[must_use]
+    pub fn with_skin(self, skin: f64) -> Self {
+        Self { skin, ..self }
+    }
+
+    /// The support radius.
+    pub fn support(&self) -> f64 {
+        self.support
+    }
+
+    /// How many times a list was built.
+    pub fn builds(&self) -> usize {
+        self.builds
+    }
+
+    /// Number of targets.
+    pub fn targets(&self) -> usize {
+        self.targets
+    }
+
+    /// The slot of a target; `None` for a particle that is none.
+    #[inline]
+    pub fn slot_of(&self, particle: usize) -> Option<usize> {
+        let slot = self.slot_of[particle];
+        (slot != u32::MAX).then_some(slot as usize)
+    }
+
+    /// Particle indices of the targets' slots, block by block.
+    pub fn target_particles(&self) -> &[u32] {
+        &self.particle[..self.targets]
+    }
+
+    /// Brings the list up to date; true where it had to be built anew: the number of points changed, or one moved
+    /// more than half the skin. Positions must be finite. Changing which particles are targets needs
+    /// [`CellList::invalidate`].
+    pub fn update(
+        &mut self,
+        positions: &[[f64; D]],
+        is_target: impl Fn(usize) -> bool + Sync,
+    ) -> bool {
+        if positions.len() == self.reference.len() && self.builds > 0 {
+            let limit = 0.25 * self.skin * self.skin;
+            let moved = positions
+                .par_iter()
+                .zip(&self.reference)
+                .with_min_len(4096)
+                .any(|(&p, &q)| point::distance_squared(p, q) > limit);
+            if !moved {
+                return false;
+            }
+        }
+        self.build(positions, is_target);
+        true
+    }
+
+    /// Makes the next [`CellList::update`] build anew.
+    pub fn invalidate(&mut self) {
+        self.reference.clear();
+        self.builds = 0;
+    }
+
+    fn build(&mut self, positions: &[[f64; D]], is_target: impl Fn(usize) -> bool + Sync) {
+        let reach = self.support + self.skin;
+        self.reference.clear();
+        self.reference.extend_from_slice(positions);
+        self.builds += 1;
+
+        // Targets first, in compact blocks of their wrapped positions.
+        let wrapped: Vec<[f64; D]> = if self.domain.is_periodic() {
+            positions.iter().map(|&p| self.domain.wrap(p)).collect()
+        } else {
+            Vec::new()
+        };
+        let at: &[[f64; D]] = if wrapped.is_empty() {
+            positions
+        } else {
+            &wrapped
+        };
+        self.particle.clear();
+        self.particle.extend(
+            (0..positions.len())
+                .filter(|&i| is_target(i))
+                .map(|i| i as u32),
+        );
+        self.targets = self.particle.len();
+        cluster(at, &mut self.particle);
+        self.slot_of.clear();
+        self.slot_of.resize(positions.len(), u32::MAX);
+        for (slot, &i) in self.particle.iter().enumerate() {
+            self.slot_of[i as usize] = slot as u32;
+        }
+        self.particle.extend(
+            (0..positions.len())
+                .filter(|&i| self.slot_of[i] == u32::MAX)
+                .map(|i| i as u32),
+        );
+        self.shift.clear();
+        if !wrapped.is_empty() {
+            self.add_images(positions, &wrapped, reach);
+        }
+
+        // Sources that are no targets, in the order of the grid: what is near in space is near in memory.
+        let mut sources = self.source_positions(positions);
+        let others = &sources[self.targets..];
+        self.cells.build(others, reach);
+        let order: Vec<usize> = self
+            .cells
+            .items()
+            .iter()
+            .map(|&k| self.targets + k as usize)
+            .collect();
+        reorder_tail(&mut self.particle, self.targets, &order);
+        if !self.shift.is_empty() {
+            reorder_tail(&mut self.shift, self.targets, &order);
+        }
+        reorder_tail(&mut sources, self.targets, &order);
+
+        self.cells.build(&sources, 0.5 * reach);
+        let blocks = self.targets.div_ceil(LANES);
+        self.chunks
+            .resize_with(blocks.div_ceil(BLOCKS_PER_CHUNK), Chunk::default);
+        let (cells, targets) = (&self.cells, self.targets);
+        self.chunks
+            .par_iter_mut()
+            .enumerate()
+            .for_each(|(number, chunk)| {
+                chunk.start.clear();
+                chunk.candidates.clear();
+                chunk.start.push(0);
+                let first = number * BLOCKS_PER_CHUNK;
+                for block in first..(first + BLOCKS_PER_CHUNK).min(blocks) {
+                    let members = block * LANES..((block + 1) * LANES).min(targets);
+                    let bounds = Bounds::of(&sources[members]);
+                    cells.for_each_run(&bounds.grown(reach), |run| {
+                        for &slot in run {
+                            if bounds.distance_squared(sources[slot as usize]) <= reach * reach {
+                                chunk.candidates.push(slot);
+                            }
+                        }
+                    });
+                    chunk.start.push(chunk.candidates.len() as u32);
+                }
+            });
+    }
+
+    /// Appends a slot for every periodic image within `reach` of the box; fills `shift`.
+    fn add_images(&mut self, positions: &[[f64; D]], wrapped: &[[f64; D]], reach: f64) {
+        let size = self.domain.bounds.size();
+        let near = self.domain.bounds.grown(reach);
+        self.shift.extend(
+            self.particle
+                .iter()
+                .map(|&i| point::sub(wrapped[i as usize], positions[i as usize])),
+        );
+        // How many periods an image may be away: more than one where the box is narrower than the reach.
+        let periods: [i32; D] = std::array::from_fn(|k| {
+            if self.domain.periodic[k] {
+                (reach / size[k]).ceil() as i32
+            } else {
+                0
+            }
+        });
+        for own in 0..positions.len() {
+            let i = self.particle[own] as usize;
+            let mut step = periods.map(|n| -n);
+            loop {
+                if step != [0; D] {
+                    let image: [f64; D] =
+                        std::array::from_fn(|k| wrapped[i][k] + f64::from(step[k]) * size[k]);
+                    if near.contains(image) {
+                        self.particle.push(i as u32);
+                        self.shift.push(point::sub(image, positions[i]));
+                    }
+                }
+                let Some(axis) = (0..D).rev().find(|&k| step[k] < periods[k]) else {
+                    break;
+                };
+                step[axis] += 1;
+                for k in axis + 1..D {
+                    step[k] = -periods[k];
+                }
+            }
+        }
+    }
+
+    fn source_positions(&self, positions: &[[f64; D]]) -> Vec<[f64; D]> {
+        let mut sources: Vec<[f64; D]> = self
+            .particle
+            .iter()
+            .map(|&i| positions[i as usize])
+            .collect();
+        for (p, &shift) in sources.iter_mut().zip(&self.shift) {
+            *p = point::add(*p, shift);
+        }
+        sources
+    }
+
+    /// Writes every source's present position and weight into its slot; `weights` has one entry per particle.
+    /// O(n), parallel, no allocation once `slots` has its size.
+    pub fn gather(&self, positions: &[[f64; D]], weights: &[f64], slots: &mut Vec<Slot>) {
+        let slot = |number: usize| {
+            let i = self.particle[number] as usize;
+            let mut p = positions[i];
+            if !self.shift.is_empty() {
+                p = point::add(p, self.shift[number]);
+            }
+            let mut slot = [0.0, 0.0, 0.0, weights[i]];
+            slot[..D].copy_from_slice(&p);
+            slot
+        };
+        (0..self.particle.len())
+            .into_par_iter()
+            .with_min_len(4096)
+            .map(slot)
+            .collect_into_vec(slots);
+    }
+
+    /// Runs `f` over all blocks in parallel. `out` has one entry per target slot; a block gets those of its targets.
+    /// No allocation.
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are targets.
+    pub fn for_each_block<R: Send>(&self, out: &mut [R], f: impl Fn(Block<'_>, &mut [R]) + Sync) {
+        assert_eq!(out.len(), self.targets, "one output per target");
+        out.par_chunks_mut(BLOCKS_PER_CHUNK * LANES)
+            .zip(&self.chunks)
+            .enumerate()
+            .for_each(|(number, (out, chunk))| {
+                let first = number * BLOCKS_PER_CHUNK * LANES;
+                for (block, out) in out.chunks_mut(LANES).enumerate() {
+                    let range = chunk.start[block] as usize..chunk.start[block + 1] as usize;
+                    f(
+                        Block {
+                            first_slot: first + block * LANES,
+                            len: out.len(),
+                            candidates: &chunk.candidates[range],
+                        },
+                        out,
+                    );
+                }
+            });
+    }
+
+    /// Candidates over all blocks and lanes: what the pair loop evaluates, pairs beyond the support included.
+    pub fn lane_pairs(&self) -> usize {
+        LANES
+            * self
+                .chunks
+                .iter()
+                .map(|chunk| chunk.candidates.len())
+                .sum::<usize>()
+    }
+
+    /// The particles within the support of target `i`, itself left out, ascending; an image counts as its particle,
+    /// and appears once for each image in reach. Empty where `i` is no target. For tests and tools, not for loops.
+    pub fn of(&self, i: usize, positions: &[[f64; D]]) -> Vec<usize> {
+        let Some(slot) = self.slot_of(i) else {
+            return Vec::new();
+        };
+        let (block, position) = (slot / LANES, |slot: usize| {
+            let p = positions[self.particle[slot] as usize];
+            self.shift
+                .get(slot)
+                .map_or(p, |&shift| point::add(p, shift))
+        });
+        let chunk = &self.chunks[block / BLOCKS_PER_CHUNK];
+        let place = block % BLOCKS_PER_CHUNK;
+        let here = position(slot);
+        let mut found: Vec<usize> = chunk.candidates
+            [chunk.start[place] as usize..chunk.start[place + 1] as usize]
+            .iter()
+            .map(|&other| other as usize)
+            .filter(|&other| {
+                other != slot
+                    && point::distance_squared(position(other), here) <= self.support * self.support
+            })
+            .map(|other| self.particle[other] as usize)
+            .collect();
+        found.sort_unstable();
+        found
+    }
+}
+
+fn reorder_tail<T: Copy>(values: &mut [T], first: usize, order: &[usize]) {
+    let tail: Vec<T> = order.iter().map(|&k| values[k]).collect();
+    values[first..].copy_from_slice(&tail);
+}

@@ -1,0 +1,132 @@
+//! A uniform grid over points, filled by counting sort.
+
+use rayon::prelude::*;
+
+use crate::Bounds;
+
+/// Points sorted into the cells of a uniform grid. The cells of a row along the last axis lie one after the other, so
+/// a box query reads a few long runs.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Cells<const D: usize> {
+    origin: Vec<f64>,
+    inverse_size: f64,
+    shape: Vec<usize>,
+    /// First entry of each cell in `items`; one more than there are cells.
+    start: Vec<u32>,
+    /// Point indices, cell by cell, ascending within a cell.
+    items: Vec<u32>,
+    keys: Vec<u32>,
+}
+
+/// More cells than this many per point waste memory on emptiness; the cells grow instead.
+const CELLS_PER_POINT: f64 = 2.0;
+
+impl<const D: usize> Cells<D> {
+    /// Sorts `points` into cells of about `size`; fewer and larger ones where the points are sparse. All points must
+    /// be finite.
+    pub(crate) fn build(&mut self, points: &[[f64; D]], size: f64) {
+        let bounds = Bounds::of(points);
+        self.items.clear();
+        self.start.clear();
+        self.shape.clear();
+        self.origin.clear();
+        if points.is_empty() {
+            self.shape.resize(D, 0);
+            self.start.push(0);
+            return;
+        }
+        let extent = bounds.size();
+        let most = (CELLS_PER_POINT * points.len() as f64).max(64.0);
+        let mut size = size;
+        let count = |size: f64| {
+            extent
+                .iter()
+                .map(|e| (e / size).floor() + 1.0)
+                .product::<f64>()
+        };
+        while count(size) > most {
+            size *= 1.25;
+        }
+        self.origin.extend(bounds.min);
+        self.inverse_size = 1.0 / size;
+        self.shape
+            .extend(extent.iter().map(|e| (e / size).floor() as usize + 1));
+        let cells: usize = self.shape.iter().product();
+
+        let mut keys = std::mem::take(&mut self.keys);
+        points
+            .par_iter()
+            .map(|&p| self.key(p))
+            .collect_into_vec(&mut keys);
+        self.start.resize(cells + 1, 0);
+        for &key in &keys {
+            self.start[key as usize + 1] += 1;
+        }
+        for cell in 0..cells {
+            self.start[cell + 1] += self.start[cell];
+        }
+        self.items.resize(points.len(), 0);
+        for (index, &key) in keys.iter().enumerate() {
+            let place = &mut self.start[key as usize];
+            self.items[*place as usize] = index as u32;
+            *place += 1;
+        }
+        // Each start has moved to its cell's end, which is the next one's start.
+        for cell in (1..=cells).rev() {
+            self.start[cell] = self.start[cell - 1];
+        }
+        self.start[0] = 0;
+        self.keys = keys;
+    }
+
+    /// Point indices in the order of the cells.
+    pub(crate) fn items(&self) -> &[u32] {
+        &self.items
+    }
+
+    #[inline(always)]
+    fn coordinate(&self, axis: usize, x: f64) -> usize {
+        let c = (x - self.origin[axis]) * self.inverse_size;
+        // The cast saturates: left of the grid is its first cell, right of it its last.
+        (c as usize).min(self.shape[axis] - 1)
+    }
+
+    fn key(&self, p: [f64; D]) -> u32 {
+        let mut key = 0;
+        for k in 0..D {
+            key = key * self.shape[k] + self.coordinate(k, p[k]);
+        }
+        key as u32
+    }
+
+    /// Calls `f` with runs of point indices that together hold every point of the box (and others near it).
+    #[inline]
+    pub(crate) fn for_each_run<'a>(&'a self, bounds: &Bounds<D>, mut f: impl FnMut(&'a [u32])) {
+        if self.items.is_empty() {
+            return;
+        }
+        let low: [usize; D] = std::array::from_fn(|k| self.coordinate(k, bounds.min[k]));
+        let high: [usize; D] = std::array::from_fn(|k| self.coordinate(k, bounds.max[k]));
+        let mut index = low;
+        loop {
+            let mut row = 0;
+            for k in 0..D {
+                row = row * self.shape[k] + index[k];
+            }
+            let end = row + high[D - 1] - low[D - 1];
+            f(&self.items[self.start[row] as usize..self.start[end + 1] as usize]);
+            let mut axis = D - 1;
+            loop {
+                if axis == 0 {
+                    return;
+                }
+                axis -= 1;
+                index[axis] += 1;
+                if index[axis] <= high[axis] {
+                    break;
+                }
+                index[axis] = low[axis];
+            }
+        }
+    }
+}

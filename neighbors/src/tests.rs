@@ -1,0 +1,233 @@
+//! Every structure answers as brute force does, on every kind of point set.
+
+use proptest::prelude::*;
+
+use crate::{CellList, Domain, KdTree, LANES, point};
+
+/// Point sets that break neighbour searches: random, lattice, clustered, coincident, near the boundary.
+fn point_sets<const D: usize>() -> impl Strategy<Value = Vec<[f64; D]>> {
+    let coordinate = 0.0..1.0_f64;
+    let random = prop::collection::vec(prop::array::uniform(coordinate.clone()), 0..200);
+    let lattice = (2..6_usize, Just(())).prop_map(|(n, ())| {
+        (0..n.pow(D as u32))
+            .map(|i| std::array::from_fn(|k| (i / n.pow(k as u32) % n) as f64 / n as f64))
+            .collect()
+    });
+    let clustered = prop::collection::vec(
+        (0..3_usize, prop::array::uniform(coordinate.clone())),
+        0..150,
+    )
+    .prop_map(|members| {
+        members
+            .into_iter()
+            .map(|(cluster, p): (usize, [f64; D])| p.map(|x| 0.25 * cluster as f64 + 0.02 * x))
+            .collect()
+    });
+    let coincident =
+        (prop::array::uniform(coordinate.clone()), 1..60_usize).prop_map(|(p, n)| vec![p; n]);
+    let boundary = prop::collection::vec(prop::array::uniform(coordinate), 0..150).prop_map(
+        |points: Vec<[f64; D]>| {
+            points
+                .into_iter()
+                .map(|p| {
+                    p.map(|x| {
+                        if x < 0.5 {
+                            x * 1e-3
+                        } else {
+                            1.0 - (1.0 - x) * 1e-3
+                        }
+                    })
+                })
+                .collect()
+        },
+    );
+    prop_oneof![random, lattice, clustered, coincident, boundary]
+}
+
+fn brute_force<const D: usize>(
+    domain: &Domain<D>,
+    points: &[[f64; D]],
+    i: usize,
+    radius: f64,
+) -> Vec<usize> {
+    let size = domain.bounds.size();
+    let mut found = Vec::new();
+    for (j, &q) in points.iter().enumerate() {
+        let base = point::sub(domain.wrap(q), domain.wrap(points[i]));
+        // Every image up to three periods away.
+        for code in 0..7_i32.pow(D as u32) {
+            let step: [i32; D] = std::array::from_fn(|k| code / 7_i32.pow(k as u32) % 7 - 3);
+            if (0..D).any(|k| !domain.periodic[k] && step[k] != 0) || (j == i && step == [0; D]) {
+                continue;
+            }
+            let d: [f64; D] = std::array::from_fn(|k| base[k] + f64::from(step[k]) * size[k]);
+            if point::norm_squared(d) <= radius * radius {
+                found.push(j);
+            }
+        }
+    }
+    found
+}
+
+/// Positions moved by less than half the skin, the same way every time.
+fn moved<const D: usize>(points: &[[f64; D]], distance: f64) -> Vec<[f64; D]> {
+    let step = distance / (D as f64).sqrt();
+    points
+        .iter()
+        .enumerate()
+        .map(|(i, &p)| std::array::from_fn(|k| p[k] + step * ((i * 7 + k * 3) as f64).sin()))
+        .collect()
+}
+
+fn check_cell_list<const D: usize>(
+    points: &[[f64; D]],
+    radius: f64,
+    periodic: [bool; D],
+) -> Result<(), TestCaseError> {
+    let domain = Domain::new([0.0; D], [1.0; D]).with_periodic(periodic);
+    let skin = 0.3 * radius;
+    let mut list = CellList::new(&domain, radius).with_skin(skin);
+    // Every third particle is only a source, as frozen ones are.
+    let is_target = |i: usize| !i.is_multiple_of(3) || !points.len().is_multiple_of(2);
+    prop_assert!(list.update(points, is_target));
+    let later = moved(points, 0.499 * skin);
+    prop_assert!(!list.update(&later, is_target) || points.is_empty());
+    for (positions, what) in [(points, "at once"), (&later[..], "within the skin")] {
+        for i in 0..positions.len() {
+            let expected = if is_target(i) {
+                brute_force(&domain, positions, i, radius)
+            } else {
+                Vec::new()
+            };
+            let found = list.of(i, positions);
+            // A pair at the radius to the last digit may fall either way when an image is computed.
+            if found != expected {
+                let edge = |r: f64| brute_force(&domain, positions, i, r);
+                prop_assert!(
+                    is_target(i)
+                        && found
+                            .iter()
+                            .all(|j| edge(radius * (1.0 + 1e-12)).contains(j))
+                        && edge(radius * (1.0 - 1e-12))
+                            .iter()
+                            .all(|j| found.contains(j)),
+                    "{what}: particle {i} has {found:?}, not {expected:?}"
+                );
+            }
+        }
+    }
+    let far = moved(points, 2.0 * skin);
+    if far
+        .iter()
+        .zip(points)
+        .any(|(&a, &b)| point::distance(a, b) > 0.5 * skin)
+    {
+        prop_assert!(list.update(&far, is_target), "too far for the skin");
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn cell_list_2d(points in point_sets::<2>(), radius in 0.01..0.6_f64, periodic in prop::array::uniform2(any::<bool>())) {
+        check_cell_list(&points, radius, periodic)?;
+    }
+
+    #[test]
+    fn cell_list_3d(points in point_sets::<3>(), radius in 0.02..0.6_f64, periodic in prop::array::uniform3(any::<bool>())) {
+        check_cell_list(&points, radius, periodic)?;
+    }
+
+    #[test]
+    fn kd_tree(points in point_sets::<3>(), p in prop::array::uniform3(-0.2..1.2_f64), radius in 0.0..0.5_f64) {
+        let tree = KdTree::new(&points).expect("finite points");
+        let mut distances: Vec<f64> = points.iter().map(|&q| point::distance(p, q)).collect();
+        let within: Vec<usize> = tree.within(p, radius).into_iter().map(|hit| hit.index).collect();
+        let expected: Vec<usize> = (0..points.len()).filter(|&i| point::distance_squared(p, points[i]) <= radius * radius).collect();
+        prop_assert_eq!(within, expected);
+        let nearest = tree.nearest(p);
+        prop_assert_eq!(nearest.is_none(), points.is_empty());
+        let few: Vec<f64> = tree.nearest_n(p, 5).into_iter().map(|hit| hit.distance).collect();
+        distances.sort_by(f64::total_cmp);
+        distances.truncate(5);
+        prop_assert_eq!(few.len(), distances.len());
+        for (a, b) in few.iter().zip(&distances) {
+            prop_assert!((a - b).abs() < 1e-12);
+        }
+        if let Some(hit) = nearest {
+            prop_assert!((hit.distance - distances[0]).abs() < 1e-12);
+            prop_assert!((point::distance(points[hit.index], p) - hit.distance).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn wrapping_brings_every_point_home(x in -1e3..1e3_f64, min in -5.0..5.0_f64, size in 0.1..5.0_f64) {
+        let domain = Domain::new([min], [min + size]).with_periodic([true]);
+        let [y] = domain.wrap([x]);
+        prop_assert!(y >= min && y < min + size);
+        let periods = (x - y) / size;
+        prop_assert!((periods - periods.round()).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_same_bits_for_any_number_of_threads() {
+    let points: Vec<[f64; 3]> = (0..20_000)
+        .map(|i| std::array::from_fn(|k| ((i * (k + 3) + k) as f64 * 0.618_033_988_749).fract()))
+        .collect();
+    let in_pool = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("a thread pool");
+        pool.install(|| {
+            let mut list = CellList::new(&Domain::new([0.0; 3], [1.0; 3]), 0.06).with_skin(0.01);
+            list.update(&points, |i| i % 5 != 0);
+            let mut slots = Vec::new();
+            list.gather(&points, &vec![1.0; points.len()], &mut slots);
+            let mut sums = vec![0.0; list.targets()];
+            list.for_each_block(&mut sums, |block, out| {
+                for (lane, sum) in out.iter_mut().enumerate() {
+                    let here = slots[block.first_slot + lane];
+                    *sum = block
+                        .candidates
+                        .iter()
+                        .map(|&c| slots[c as usize][0] - here[0])
+                        .sum::<f64>();
+                }
+            });
+            (list.target_particles().to_vec(), sums)
+        })
+    };
+    let one = in_pool(1);
+    assert_eq!(one, in_pool(2));
+    assert_eq!(one, in_pool(5));
+}
+
+#[test]
+fn blocks_of_a_lattice_are_compact() {
+    // 16³ sites: blocks of 2 × 2 × 2, so that a list is at most three times the neighbours.
+    let n = 16;
+    let points: Vec<[f64; 3]> = (0..n * n * n)
+        .map(|i| [(i / n / n) as f64, (i / n % n) as f64, (i % n) as f64])
+        .collect();
+    let mut list = CellList::new(&Domain::new([-0.5; 3], [15.5; 3]), 3.0);
+    list.update(&points, |_| true);
+    assert_eq!(list.targets(), n * n * n);
+    let pairs: usize = (0..points.len())
+        .map(|i| list.of(i, &points).len() + 1)
+        .sum();
+    assert!(
+        list.lane_pairs() < 3 * pairs,
+        "{} lanes for {pairs} pairs",
+        list.lane_pairs()
+    );
+    assert_eq!(list.lane_pairs() % LANES, 0);
+}
+
+#[test]
+fn not_finite_is_refused() {
+    assert!(KdTree::new(&[[0.0, 0.0], [f64::NAN, 0.0]]).is_err());
+}
