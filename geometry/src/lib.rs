@@ -1,5 +1,58 @@
-//! What a body is (work in progress).
-pub mod error;
-pub mod surface;
+//! What a body is: outlines in the plane, meshes and shapes in space, and what every method asks of them.
+//!
+//! ```
+//! use sphpack_geometry::{Ball, Feature, Outline, Surface};
+//!
+//! // Any body answers the same few questions.
+//! let wing = Outline::naca("0015", 1.0)?;
+//! let hit = wing.closest([1.2, 0.0]);
+//! assert_eq!(hit.feature, Feature::Corner); // the trailing edge
+//! assert!((hit.distance - 0.2).abs() < 1e-15 && !wing.inside([1.2, 0.0]));
+//!
+//! // Boundary particles sit half a spacing inside; corners are resolved.
+//! let inset = wing.inset(0.01)?;
+//! assert!(inset.volume() < wing.volume() && inset.features().corners.len() == 1);
+//!
+//! let sphere = Ball::new([0.0; 3], 0.5)?;
+//! assert!((sphere.inset(0.1)?.measure() - 4.0 * std::f64::consts::PI * 0.16).abs() < 1e-12);
+//! # Ok::<(), sphpack_geometry::GeometryError>(())
+//! ```
+//!
+//! | what | type |
+//! |---|---|
+//! | the interface | [`Surface`], with [`Closest`], [`Feature`], [`Features`] |
+//! | 2-D: polygons, sampled curves, airfoils; CSV | [`Outline`] |
+//! | 3-D: closed triangle meshes; STL | [`Mesh`] |
+//! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
+//! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`] |
+//! | underneath | [`Bvh`] |
+//! | classical inside tests (000 eq. 14) | [`angle_sum`], [`winding_number`], [`crossing_number`] |
+//!
+//! Invariants: geometry knows no particles and no kernels; bodies are immutable; no input makes it panic; equal input
+//! gives equal bits, whatever the number of threads. Lengths are scene units. Papers are cited by number: 000 and 001
+//! are the packing papers of this project.
+
+mod bvh;
+mod error;
+mod level_inset;
+mod mesh;
+mod outline;
+mod placed;
+mod sampling;
+mod segment;
+mod shapes;
+mod similarity;
+mod surface;
+
+pub use bvh::Bvh;
 pub use error::GeometryError;
+pub use level_inset::LevelInset;
+pub use mesh::{EDGE_DEGREES, Mesh};
+pub use outline::{
+    CORNER_DEGREES, MITRE_LIMIT, Outline, angle_sum, crossing_number, winding_number,
+};
+pub use placed::Placed;
+pub use sampling::SAGITTA_OVER_SIZE;
+pub use shapes::{Ball, Cuboid, Cylinder, Ellipsoid, Torus};
+pub use similarity::Similarity;
 pub use surface::{Closest, Feature, Features, Surface};

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crate::Number;
 use crate::kernel::{Profile, Scaled, per_dimension};
 
 /// The cubic spline M₄, support 2h: w(q) = ¼(2−q)³₊ − (1−q)³₊ with σ = 2/3, 10/(7π), 1/π.
@@ -16,14 +17,14 @@ impl<const D: usize> Profile<D> for CubicProfile {
     const SIGMA: f64 = per_dimension(D, [2.0 / 3.0, 10.0 / (7.0 * PI), 1.0 / PI]);
 
     #[inline(always)]
-    fn value(q: f64) -> f64 {
-        let (a, b) = ((2.0 - q).max(0.0), (1.0 - q).max(0.0));
-        0.25 * a * a * a - b * b * b
+    fn value<N: Number>(q: N) -> N {
+        let [a, b] = [2.0, 1.0].map(|join| (q.constant(join) - q).positive());
+        q.constant(0.25) * a * a * a - b * b * b
     }
 
     #[inline(always)]
-    fn slope_over_q(q: f64) -> f64 {
-        let (a, b) = ((2.0 - q).max(0.0), (1.0 - q).max(0.0));
-        (3.0 * b * b - 0.75 * a * a) / q
+    fn slope_over_q<N: Number>(q: N) -> N {
+        let [a, b] = [2.0, 1.0].map(|join| (q.constant(join) - q).positive());
+        (q.constant(3.0) * b * b - q.constant(0.75) * a * a) / q
     }
 }

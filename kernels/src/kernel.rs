@@ -3,6 +3,8 @@
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
+use crate::Number;
+
 /// A radial smoothing kernel in `D` dimensions, fixed to a smoothing length.
 ///
 /// Distances and smoothing lengths share a unit; values have that unit to the power −D.
@@ -20,8 +22,8 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
     fn slope(&self, r: f64) -> f64;
 
     /// W and (dW/dr)/r from the **squared** distance, without branches: what a pair loop needs, since
-    /// ∇W = (dW/dr)/r · (x_i − x_j). The second is finite at `r = 0`.
-    fn value_and_slope_over_r(&self, r_squared: f64) -> (f64, f64);
+    /// ∇W = (dW/dr)/r · (x_i − x_j). The second is finite at `r = 0`. For one pair (`f64`) or several at a time.
+    fn value_and_slope_over_r<N: Number>(&self, r_squared: N) -> (N, N);
 
     /// W(0), a particle's own share of its summation density.
     fn value_at_origin(&self) -> f64 {
@@ -30,7 +32,7 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
 
     /// ∇_iW_ij for `difference` = x_i − x_j; zero (not NaN) where the two coincide.
     fn gradient(&self, difference: [f64; D]) -> [f64; D] {
-        let r_squared = difference.iter().map(|d| d * d).sum();
+        let r_squared: f64 = difference.iter().map(|d| d * d).sum();
         let (_, slope_over_r) = self.value_and_slope_over_r(r_squared);
         difference.map(|d| slope_over_r * d)
     }
@@ -44,10 +46,10 @@ pub trait Profile<const D: usize>: Copy + Debug + Default + Send + Sync {
     const SIGMA: f64;
 
     /// w(q), zero for q ≥ [`Profile::SUPPORT`].
-    fn value(q: f64) -> f64;
+    fn value<N: Number>(q: N) -> N;
 
     /// w'(q)/q, finite for q → 0 as long as `q > 0`.
-    fn slope_over_q(q: f64) -> f64;
+    fn slope_over_q<N: Number>(q: N) -> N;
 }
 
 /// A profile scaled to a smoothing length; the concrete kernels are aliases of it.
@@ -99,12 +101,12 @@ impl<P: Profile<D>, const D: usize> Kernel<D> for Scaled<P, D> {
     }
 
     #[inline(always)]
-    fn value_and_slope_over_r(&self, r_squared: f64) -> (f64, f64) {
-        let q_squared = r_squared * (self.inverse * self.inverse);
-        let q = q_squared.max(SMALLEST_Q_SQUARED).sqrt();
+    fn value_and_slope_over_r<N: Number>(&self, r_squared: N) -> (N, N) {
+        let q_squared = r_squared * r_squared.constant(self.inverse * self.inverse);
+        let q = q_squared.at_least(SMALLEST_Q_SQUARED).sqrt();
         (
-            self.value_scale * P::value(q),
-            self.slope_scale * P::slope_over_q(q),
+            q.constant(self.value_scale) * P::value(q),
+            q.constant(self.slope_scale) * P::slope_over_q(q),
         )
     }
 }

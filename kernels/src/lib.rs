@@ -29,6 +29,7 @@ mod cohesion;
 mod cubic;
 mod kernel;
 mod kind;
+mod number;
 mod quintic;
 mod wendland;
 
@@ -39,6 +40,7 @@ pub use cohesion::Cohesion;
 pub use cubic::{Cubic, CubicProfile};
 pub use kernel::{Kernel, Profile, Scaled};
 pub use kind::{KernelKind, UnknownKernel, WithKernel};
+pub use number::Number;
 pub use quintic::{Quintic, QuinticProfile};
 pub use wendland::{
     WendlandC2, WendlandC2Profile, WendlandC4, WendlandC4Profile, WendlandC6, WendlandC6Profile,

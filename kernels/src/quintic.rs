@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crate::Number;
 use crate::kernel::{Profile, Scaled, per_dimension};
 
 /// The quintic spline M₆, support 3h (paper 001 eq. 14; σ₃ of paper 000 eq. 3 is a misprint).
@@ -18,16 +19,18 @@ impl<const D: usize> Profile<D> for QuinticProfile {
     const SIGMA: f64 = per_dimension(D, [1.0 / 120.0, 7.0 / (478.0 * PI), 1.0 / (120.0 * PI)]);
 
     #[inline(always)]
-    fn value(q: f64) -> f64 {
-        let (a, b, c) = ((3.0 - q).max(0.0), (2.0 - q).max(0.0), (1.0 - q).max(0.0));
+    fn value<N: Number>(q: N) -> N {
+        let [a, b, c] = [3.0, 2.0, 1.0].map(|join| (q.constant(join) - q).positive());
         let (a2, b2, c2) = (a * a, b * b, c * c);
-        a2 * a2 * a - 6.0 * (b2 * b2 * b) + 15.0 * (c2 * c2 * c)
+        let outer = (a2 * a2).multiply_add(a, q.constant(-6.0) * (b2 * b2 * b));
+        (q.constant(15.0) * c2 * c2).multiply_add(c, outer)
     }
 
     #[inline(always)]
-    fn slope_over_q(q: f64) -> f64 {
-        let (a, b, c) = ((3.0 - q).max(0.0), (2.0 - q).max(0.0), (1.0 - q).max(0.0));
+    fn slope_over_q<N: Number>(q: N) -> N {
+        let [a, b, c] = [3.0, 2.0, 1.0].map(|join| (q.constant(join) - q).positive());
         let (a2, b2, c2) = (a * a, b * b, c * c);
-        -5.0 * (a2 * a2 - 6.0 * (b2 * b2) + 15.0 * (c2 * c2)) / q
+        let outer = (q.constant(30.0) * b2).multiply_add(b2, q.constant(-5.0) * a2 * a2);
+        (q.constant(-75.0) * c2).multiply_add(c2, outer) / q
     }
 }

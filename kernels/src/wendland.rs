@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use crate::Number;
 use crate::kernel::{Profile, Scaled, per_dimension};
 
 /// C2: (1−s)³(1+3s) in 1-D, (1−s)⁴(1+4s) in 2-D and 3-D; σ = 5/8, 7/(4π), 21/(16π).
@@ -24,30 +25,47 @@ pub struct WendlandC4Profile;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct WendlandC6Profile;
 
+/// 1 − s and s for s = q/2, the first cut at zero.
+#[inline(always)]
+fn inward<N: Number>(q: N) -> (N, N) {
+    let s = q.constant(0.5) * q;
+    ((q.constant(1.0) - s).positive(), s)
+}
+
+/// c₀ + c₁ s + c₂ s² + …
+#[inline(always)]
+fn polynomial<N: Number, const M: usize>(s: N, coefficients: [f64; M]) -> N {
+    let mut sum = s.constant(0.0);
+    for c in coefficients.into_iter().rev() {
+        sum = sum.multiply_add(s, s.constant(c));
+    }
+    sum
+}
+
 impl<const D: usize> Profile<D> for WendlandC2Profile {
     const SUPPORT: f64 = 2.0;
     const SIGMA: f64 = per_dimension(D, [5.0 / 8.0, 7.0 / (4.0 * PI), 21.0 / (16.0 * PI)]);
 
     #[inline(always)]
-    fn value(q: f64) -> f64 {
-        let s = 0.5 * q;
-        let t = (1.0 - s).max(0.0);
+    fn value<N: Number>(q: N) -> N {
+        let (t, s) = inward(q);
         let t2 = t * t;
         if D == 1 {
-            t2 * t * (1.0 + 3.0 * s)
+            t2 * t * polynomial(s, [1.0, 3.0])
         } else {
-            t2 * t2 * (1.0 + 4.0 * s)
+            t2 * t2 * polynomial(s, [1.0, 4.0])
         }
     }
 
+    // w'(q)/q = (dw/ds)/s / 4.
     #[inline(always)]
-    fn slope_over_q(q: f64) -> f64 {
-        let t = (1.0 - 0.5 * q).max(0.0);
-        // dw/dq / q = (dw/ds / s) / 4
+    fn slope_over_q<N: Number>(q: N) -> N {
+        let (t, s) = inward(q);
+        let t2 = t * t;
         if D == 1 {
-            -3.0 * t * t
+            t2 * s.constant(-3.0)
         } else {
-            -5.0 * t * t * t
+            t2 * t * s.constant(-5.0)
         }
     }
 }
@@ -57,26 +75,25 @@ impl<const D: usize> Profile<D> for WendlandC4Profile {
     const SIGMA: f64 = per_dimension(D, [3.0 / 4.0, 9.0 / (4.0 * PI), 495.0 / (256.0 * PI)]);
 
     #[inline(always)]
-    fn value(q: f64) -> f64 {
-        let s = 0.5 * q;
-        let t = (1.0 - s).max(0.0);
-        let (t2, s2) = (t * t, s * s);
+    fn value<N: Number>(q: N) -> N {
+        let (t, s) = inward(q);
+        let t2 = t * t;
         if D == 1 {
-            t2 * t2 * t * (1.0 + 5.0 * s + 8.0 * s2)
+            t2 * t2 * t * polynomial(s, [1.0, 5.0, 8.0])
         } else {
-            t2 * t2 * t2 * (1.0 + 6.0 * s + (35.0 / 3.0) * s2)
+            t2 * t2 * t2 * polynomial(s, [1.0, 6.0, 35.0 / 3.0])
         }
     }
 
+    // w'(q)/q = (dw/ds)/s / 4.
     #[inline(always)]
-    fn slope_over_q(q: f64) -> f64 {
-        let s = 0.5 * q;
-        let t = (1.0 - s).max(0.0);
-        let t4 = (t * t) * (t * t);
+    fn slope_over_q<N: Number>(q: N) -> N {
+        let (t, s) = inward(q);
+        let t2 = t * t;
         if D == 1 {
-            -3.5 * (1.0 + 4.0 * s) * t4
+            t2 * t2 * polynomial(s, [-3.5, -14.0])
         } else {
-            -(14.0 / 3.0) * (1.0 + 5.0 * s) * t4 * t
+            t2 * t2 * t * polynomial(s, [-14.0 / 3.0, -70.0 / 3.0])
         }
     }
 }
@@ -86,28 +103,25 @@ impl<const D: usize> Profile<D> for WendlandC6Profile {
     const SIGMA: f64 = per_dimension(D, [55.0 / 64.0, 39.0 / (14.0 * PI), 1365.0 / (512.0 * PI)]);
 
     #[inline(always)]
-    fn value(q: f64) -> f64 {
-        let s = 0.5 * q;
-        let t = (1.0 - s).max(0.0);
+    fn value<N: Number>(q: N) -> N {
+        let (t, s) = inward(q);
         let t2 = t * t;
-        let t4 = t2 * t2;
         if D == 1 {
-            t4 * t2 * t * (1.0 + s * (7.0 + s * (19.0 + s * 21.0)))
+            t2 * t2 * t2 * t * polynomial(s, [1.0, 7.0, 19.0, 21.0])
         } else {
-            t4 * t4 * (1.0 + s * (8.0 + s * (25.0 + s * 32.0)))
+            (t2 * t2) * (t2 * t2) * polynomial(s, [1.0, 8.0, 25.0, 32.0])
         }
     }
 
+    // w'(q)/q = (dw/ds)/s / 4.
     #[inline(always)]
-    fn slope_over_q(q: f64) -> f64 {
-        let s = 0.5 * q;
-        let t = (1.0 - s).max(0.0);
+    fn slope_over_q<N: Number>(q: N) -> N {
+        let (t, s) = inward(q);
         let t2 = t * t;
-        let t6 = t2 * t2 * t2;
         if D == 1 {
-            -1.5 * (3.0 + s * (18.0 + s * 35.0)) * t6
+            t2 * t2 * t2 * polynomial(s, [-4.5, -27.0, -52.5])
         } else {
-            -5.5 * (1.0 + s * (7.0 + s * 16.0)) * t6 * t
+            t2 * t2 * t2 * t * polynomial(s, [-5.5, -38.5, -88.0])
         }
     }
 }

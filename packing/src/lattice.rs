@@ -3,7 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use sphpack_neighbors::{Bounds, Domain};
+use sphpack_kernels::{Kernel, KernelKind, WithKernel};
+use sphpack_neighbors::{Bounds, Domain, point};
 
 /// A regular arrangement of particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -126,6 +127,15 @@ impl Lattice {
         }
     }
 
+    /// Γ of a particle of the perfect, unstretched lattice: Σ V W over the lattice, 1 but for the kernel's own bias.
+    pub fn gamma(self, kernel: KernelKind, h_over_spacing: f64) -> f64 {
+        if self.dimension() == 2 {
+            kernel.with::<2, _>(h_over_spacing, SiteSum(self))
+        } else {
+            kernel.with::<3, _>(h_over_spacing, SiteSum(self))
+        }
+    }
+
     /// The lattice stretched to fill a box with a whole number of cells along each axis, at about one site per
     /// `spacing`^D. Of the whole numbers next to the ideal ones it takes those that keep the volume per site closest
     /// to `spacing`^D and the stretch most even.
@@ -166,6 +176,30 @@ impl Lattice {
             bounds,
             cells,
         }
+    }
+}
+
+/// Σ W over the sites of a lattice of unit volume per site, seen from one of them.
+struct SiteSum(Lattice);
+
+impl<const D: usize> WithKernel<D> for SiteSum {
+    type Output = f64;
+
+    fn call<K: Kernel<D>>(self, kernel: K) -> f64 {
+        let unit = self.0.cell();
+        let cell: [f64; D] = std::array::from_fn(|k| unit[k]);
+        let filling = Filling {
+            lattice: self.0,
+            bounds: Bounds::new([0.0; D], cell),
+            cells: [1; D],
+        };
+        let first = filling.sites()[0];
+        let mut sites = filling.sites();
+        sites.extend(filling.continued(&Domain::new([0.0; D], cell), kernel.support()));
+        sites
+            .iter()
+            .map(|&site| kernel.value(point::distance(site, first)))
+            .sum()
     }
 }
 
@@ -269,7 +303,6 @@ impl<const D: usize> Filling<D> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use sphpack_neighbors::point;
 
     /// Nearest-neighbour distance over ∆s and coordination number of the unstretched lattice.
     fn expected(lattice: Lattice) -> (f64, usize) {
@@ -323,6 +356,22 @@ mod tests {
             } else {
                 check_neighbours::<3>(lattice);
             }
+        }
+    }
+
+    #[test]
+    fn perfect_lattices_of_short_kernels_are_biased() {
+        let check = |lattice: Lattice, expected: f64| {
+            let gamma = lattice.gamma(KernelKind::WendlandC2, 1.3);
+            assert!((gamma - expected).abs() < 5e-5, "{lattice}: {gamma}");
+        };
+        check(Lattice::Square, 1.0105);
+        check(Lattice::Hexagonal, 1.0088);
+        check(Lattice::SimpleCubic, 1.0095);
+        check(Lattice::Fcc, 1.0068);
+        for h in [1.0, 1.1, 1.2] {
+            let gamma = Lattice::Hexagonal.gamma(KernelKind::Quintic, h);
+            assert!((gamma - 1.0).abs() < 1.2e-4, "hexagonal at {h}: {gamma}");
         }
     }
 

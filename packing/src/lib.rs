@@ -1,13 +1,46 @@
-//! How particles settle (work in progress).
+//! How particles settle: lattices, forces, capture, methods and measures.
+//!
+//! A [`Problem`] is a box, a spacing and bodies; a method such as [`Hybrid`] turns it into a [`Packed`] set of
+//! particles; [`Packed::quality`] says how good it is.
+//!
+//! ```
+//! use sphpack_geometry::Ball;
+//! use sphpack_neighbors::Domain;
+//! use sphpack_packing::{Hybrid, Problem, Silent};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let cylinder = Ball::new([0.0, 0.0], 1.0)?;
+//! let problem = Problem::new(Domain::new([-2.0, -2.0], [2.0, 2.0]), 0.2).body("cylinder", cylinder);
+//! let packed = Hybrid::default().pack(&problem, &mut Silent)?;
+//! let quality = packed.quality(&packed.fields(problem.kernel, problem.h_over_spacing));
+//! assert!(quality.density.linf < 0.03);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Invariants: results have the same bits for any number of threads; the loop over iterations allocates only where a
+//! neighbour list is built anew or a particle is captured; nothing here reads or writes files.
+
+pub mod forces;
+mod hybrid;
 pub mod lattice;
 pub mod observer;
+pub mod on_surface;
 pub mod packed;
+mod pair_sums;
 pub mod particles;
 pub mod problem;
+pub mod quality;
+pub mod repulsion;
+pub mod seeding;
+
+#[cfg(test)]
+mod tests;
+
+pub use hybrid::Hybrid;
 pub use lattice::Lattice;
 pub use observer::{Observer, Phase, Progress, Sample, Silent};
 pub use packed::{Packed, ParticleSurface, Seconds, StopReason};
 pub use particles::{Kind, Particles};
 pub use problem::{Body, Estimate, FrozenLayout, PackingError, Problem};
-pub mod quality;
 pub use quality::{DensityQuality, Fields, Quality, ResidualQuality, SurfaceQuality};

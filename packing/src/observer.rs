@@ -53,7 +53,7 @@ pub struct Progress {
 pub struct Sample {
     /// Force evaluations so far.
     pub evaluation: usize,
-    /// Energy of background pressure and repulsion, relative to that of the first sample's particle count: E / (p_b V N).
+    /// Energy of background pressure and repulsion, per particle and in units of p_b V.
     pub energy: f64,
     /// The largest residual h |Σ V ∇W| of a free particle.
     pub residual: f64,

@@ -6,6 +6,7 @@ use sphpack_geometry::Surface;
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
+use crate::lattice::Lattice;
 use crate::observer::Sample;
 use crate::particles::Particles;
 
@@ -69,10 +70,14 @@ pub struct Packed<const D: usize> {
     pub domain: Domain<D>,
     /// ∆s, scene units.
     pub spacing: f64,
+    /// The lattice that it started from.
+    pub lattice: Lattice,
     /// The kernel that packed.
     pub kernel: KernelKind,
     /// Its smoothing length over ∆s.
     pub h_over_spacing: f64,
+    /// The names of the bodies.
+    pub bodies: Vec<String>,
     /// The surface of each body, in the order of the problem's bodies.
     pub surfaces: Vec<ParticleSurface<D>>,
     /// Why it stopped.

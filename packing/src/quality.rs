@@ -1,6 +1,13 @@
 //! Measures of a particle set, the same for every method and for anybody's particles.
 
+use rayon::prelude::*;
 use sphpack_kernels::KernelKind;
+use sphpack_neighbors::{Domain, KdTree, point};
+
+use crate::forces::{Forces, blocked_sum, largest};
+use crate::packed::{Packed, ParticleSurface};
+use crate::particles::Kind;
+use crate::repulsion::Repulsion;
 
 /// Γ and ∇Γ at every particle.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,4 +82,184 @@ pub struct Quality {
     pub surface: Vec<SurfaceQuality>,
     /// Smallest distance between two particles, in ∆s.
     pub closest_pair_over_spacing: f64,
+}
+
+impl<const D: usize> Fields<D> {
+    /// Γ and ∇Γ of the particles for which `is_measured` holds; zero for the others, which are sources only.
+    /// Volumes: one per particle. O(n log n), parallel.
+    pub fn measure(
+        domain: &Domain<D>,
+        positions: &[[f64; D]],
+        volumes: &[f64],
+        is_measured: impl Fn(usize) -> bool + Sync,
+        kernel: KernelKind,
+        smoothing_length: f64,
+    ) -> Self {
+        let mut forces = Forces::new(domain, kernel, smoothing_length, 0.0, Repulsion::none());
+        forces.evaluate_plain(positions, volumes, is_measured);
+        Self {
+            kernel,
+            smoothing_length,
+            gamma: (0..positions.len()).map(|i| forces.gamma(i)).collect(),
+            gradient: (0..positions.len()).map(|i| forces.gradient(i)).collect(),
+        }
+    }
+
+    /// h |∇Γ_i|, dimensionless.
+    pub fn residual(&self, i: usize) -> f64 {
+        self.smoothing_length * point::norm(self.gradient[i])
+    }
+}
+
+impl DensityQuality {
+    /// The figures of some particles' Γ; `lattice` is Γ of the perfect lattice. All zero for no particles.
+    pub fn of(gamma: &[f64], lattice: f64) -> Self {
+        let n = gamma.len().max(1) as f64;
+        let (min, max) = gamma
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), &g| {
+                (min.min(g), max.max(g))
+            });
+        if gamma.is_empty() {
+            return Self {
+                min: 0.0,
+                max: 0.0,
+                linf: 0.0,
+                total_variation: 0.0,
+                rms: 0.0,
+                lattice,
+            };
+        }
+        Self {
+            min,
+            max,
+            linf: (max - 1.0).max(1.0 - min),
+            total_variation: max - min,
+            rms: (blocked_sum(gamma, |g| (g - 1.0) * (g - 1.0)) / n).sqrt(),
+            lattice,
+        }
+    }
+}
+
+impl ResidualQuality {
+    /// The figures of the free particles' residuals, and the largest tangential one of the boundary particles.
+    pub fn of(free: &[f64], max_tangential: f64) -> Self {
+        let n = free.len().max(1) as f64;
+        Self {
+            max: largest(free.len(), |i| free[i]),
+            rms: (blocked_sum(free, |r| r * r) / n).sqrt(),
+            mean: blocked_sum(free, |&r| r) / n,
+            max_tangential,
+        }
+    }
+}
+
+/// Smallest distance from an asked point to any other; infinite where there is no other. Periodic images are not seen.
+fn closest_pair<const D: usize>(
+    positions: &[[f64; D]],
+    is_asked: impl Fn(usize) -> bool + Sync,
+) -> f64 {
+    let Ok(tree) = KdTree::new(positions) else {
+        return f64::NAN;
+    };
+    (0..positions.len())
+        .into_par_iter()
+        .with_min_len(1024)
+        .filter(|&i| is_asked(i))
+        .map(|i| {
+            tree.nearest_n(positions[i], 2)
+                .last()
+                .map_or(f64::INFINITY, |hit| hit.distance)
+        })
+        .reduce(|| f64::INFINITY, f64::min)
+}
+
+impl<const D: usize> Packed<D> {
+    /// Γ and ∇Γ of all but the frozen particles, by the kernel and h/∆s given (which need not be those that packed).
+    /// Frozen particles support a kernel as far as the packing's own reached.
+    pub fn fields(&self, kernel: KernelKind, h_over_spacing: f64) -> Fields<D> {
+        Fields::measure(
+            &self.domain,
+            &self.particles.position,
+            &self.particles.volume,
+            |i| self.particles.kind[i] != Kind::Frozen,
+            kernel,
+            h_over_spacing * self.spacing,
+        )
+    }
+
+    /// Every measure of the packing, from its fields.
+    pub fn quality(&self, fields: &Fields<D>) -> Quality {
+        let particles = &self.particles;
+        let of_kind = |wanted: fn(Kind) -> bool| {
+            (0..particles.len()).filter(move |&i| wanted(particles.kind[i]))
+        };
+        let gamma: Vec<f64> = of_kind(|kind| kind != Kind::Frozen)
+            .map(|i| fields.gamma[i])
+            .collect();
+        let free: Vec<f64> = of_kind(|kind| kind == Kind::Free)
+            .map(|i| fields.residual(i))
+            .collect();
+        let boundary: Vec<usize> = of_kind(|kind| kind == Kind::Boundary).collect();
+        let max_tangential = largest(boundary.len(), |b| {
+            let i = boundary[b];
+            let surface = &self.surfaces[usize::from(particles.body[i].unwrap_or(0))].surface;
+            let normal = surface.closest(particles.position[i]).normal;
+            fields.smoothing_length * point::norm(point::reject(fields.gradient[i], normal))
+        });
+        let h_over_spacing = fields.smoothing_length / self.spacing;
+        Quality {
+            density: DensityQuality::of(&gamma, self.lattice.gamma(fields.kernel, h_over_spacing)),
+            residual: ResidualQuality::of(&free, max_tangential),
+            surface: (self.surfaces.iter().zip(&self.bodies).zip(0_u16..))
+                .map(|((surface, name), body)| self.surface_quality(surface, name, body))
+                .collect(),
+            closest_pair_over_spacing: closest_pair(&particles.position, |i| {
+                particles.kind[i] != Kind::Frozen
+            }) / self.spacing,
+        }
+    }
+
+    fn surface_quality(
+        &self,
+        surface: &ParticleSurface<D>,
+        name: &str,
+        body: u16,
+    ) -> SurfaceQuality {
+        let particles = &self.particles;
+        let on: Vec<[f64; D]> = (0..particles.len())
+            .filter(|&i| particles.kind[i].is_on_surface() && particles.body[i] == Some(body))
+            .map(|i| particles.position[i])
+            .collect();
+        let farthest = largest(on.len(), |i| surface.surface.closest(on[i]).distance.abs());
+        let spacings: Vec<f64> = KdTree::new(&on).map_or_else(
+            |_| Vec::new(),
+            |tree| {
+                on.par_iter()
+                    .with_min_len(256)
+                    .filter_map(|&p| {
+                        tree.nearest_n(p, 2)
+                            .get(1)
+                            .map(|hit| hit.distance / self.spacing)
+                    })
+                    .collect()
+            },
+        );
+        let n = spacings.len().max(1) as f64;
+        let mean = blocked_sum(&spacings, |&s| s) / n;
+        let variance = blocked_sum(&spacings, |s| (s - mean) * (s - mean)) / n;
+        SurfaceQuality {
+            body: name.to_owned(),
+            measure: surface.surface.measure(),
+            target_count: surface.target_count,
+            count: on.len(),
+            max_distance_over_spacing: farthest / self.spacing,
+            spacing_mean_over_spacing: mean,
+            spacing_cv: if mean > 0.0 {
+                variance.sqrt() / mean
+            } else {
+                0.0
+            },
+        }
+    }
 }

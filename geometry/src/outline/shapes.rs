@@ -1,0 +1,197 @@
+//! Outlines given by a formula.
+
+use std::f64::consts::{PI, TAU};
+
+use super::Outline;
+use crate::GeometryError;
+use crate::sampling::{extent, nodes};
+
+impl Outline {
+    /// r(θ) = `radius` (1 + `amplitude` cos(`arms` θ)) about `center`: the starfish of 000 fig. 13 and 001 fig. 17
+    /// (the papers give no formula; this one matches their pictures with amplitude 0.25 and 5 arms). Sampled within
+    /// [`SAGITTA_OVER_SIZE`](crate::SAGITTA_OVER_SIZE) of its size.
+    ///
+    /// # Errors
+    /// [`GeometryError::BadParameter`] unless radius > 0, 0 ≤ amplitude < 1 and 1 ≤ arms ≤ 1000.
+    pub fn starfish(
+        center: [f64; 2],
+        radius: f64,
+        amplitude: f64,
+        arms: u32,
+    ) -> Result<Self, GeometryError> {
+        GeometryError::check_finite("starfish", "center", center)?;
+        GeometryError::check_positive("starfish", "radius", radius)?;
+        if !(0.0..1.0).contains(&amplitude) {
+            return Err(GeometryError::BadParameter {
+                shape: "starfish",
+                name: "amplitude",
+                value: amplitude,
+                needs: "at least 0 and below 1",
+            });
+        }
+        if !(1..=1000).contains(&arms) {
+            return Err(GeometryError::BadParameter {
+                shape: "starfish",
+                name: "arms",
+                value: f64::from(arms),
+                needs: "1 to 1000",
+            });
+        }
+        let at = |angle: f64| {
+            let r = radius * (1.0 + amplitude * (f64::from(arms) * angle).cos());
+            [center[0] + r * angle.cos(), center[1] + r * angle.sin()]
+        };
+        // One arm at a time, so that every tip is a node.
+        let mut points = Vec::new();
+        for arm in 0..arms {
+            let turn = |k: u32| TAU * f64::from(k) / f64::from(arms);
+            points.extend(nodes(at, turn(arm), turn(arm + 1), 2.0 * radius));
+            points.pop();
+        }
+        Self::polygon(&points)
+    }
+
+    /// The NACA four-digit airfoil `digits` ("0015", "2412") with its leading edge at the origin and its chord of
+    /// length `chord` (scene units) along +x; the trailing edge is closed (last coefficient −0.1036) and its only
+    /// corner. Sampled within [`SAGITTA_OVER_SIZE`](crate::SAGITTA_OVER_SIZE) of the chord.
+    ///
+    /// # Errors
+    /// [`GeometryError::BadNaca`] for anything but four digits with a thickness, [`GeometryError::BadParameter`] for
+    /// a bad chord.
+    pub fn naca(digits: &str, chord: f64) -> Result<Self, GeometryError> {
+        GeometryError::check_positive("naca", "chord", chord)?;
+        let foil = Foil::new(digits)?;
+        let at = |angle: f64| {
+            let [x, y] = foil.at(angle);
+            [chord * x, chord * y]
+        };
+        let mut points = nodes(at, 0.0, PI, chord);
+        points.pop();
+        points.extend(nodes(at, PI, TAU, chord));
+        points.pop();
+        Self::polygon(&points)
+    }
+
+    /// A wall whose upper side is a triangular wave: the zig-zag of 001 figs. 14–16. The body fills
+    /// −`width`/2 ≤ x ≤ `width`/2 from y = −`height` up to the wave, which swings by ±`amplitude` about y = 0 in
+    /// `teeth` whole periods, rising first from the right; all scene units. `zigzag(2.0, 1.0, 0.25, 2)` has right
+    /// angles at its teeth both ways.
+    ///
+    /// # Errors
+    /// [`GeometryError::BadParameter`] unless the lengths are positive, amplitude < height, and 1 ≤ teeth ≤ 10⁶.
+    pub fn zigzag(
+        width: f64,
+        height: f64,
+        amplitude: f64,
+        teeth: u32,
+    ) -> Result<Self, GeometryError> {
+        GeometryError::check_positive("zigzag", "width", width)?;
+        GeometryError::check_positive("zigzag", "height", height)?;
+        GeometryError::check_positive("zigzag", "amplitude", amplitude)?;
+        if amplitude >= height {
+            return Err(GeometryError::BadParameter {
+                shape: "zigzag",
+                name: "amplitude",
+                value: amplitude,
+                needs: "smaller than the height",
+            });
+        }
+        if !(1..=1_000_000).contains(&teeth) {
+            return Err(GeometryError::BadParameter {
+                shape: "zigzag",
+                name: "teeth",
+                value: f64::from(teeth),
+                needs: "1 to 1000000",
+            });
+        }
+        let right = 0.5 * width;
+        let mut points = vec![[-right, -height], [right, -height], [right, 0.0]];
+        let period = width / f64::from(teeth);
+        for tooth in 0..teeth {
+            let start = right - f64::from(tooth) * period;
+            points.push([start - 0.25 * period, amplitude]);
+            points.push([start - 0.75 * period, -amplitude]);
+        }
+        points.push([-right, 0.0]);
+        Self::polygon(&points)
+    }
+}
+
+/// A NACA four-digit airfoil of chord 1.
+struct Foil {
+    /// Greatest camber.
+    camber: f64,
+    /// Where along the chord it is.
+    place: f64,
+    /// Greatest thickness.
+    thickness: f64,
+}
+
+impl Foil {
+    fn new(digits: &str) -> Result<Self, GeometryError> {
+        let wrong = || GeometryError::BadNaca {
+            digits: digits.chars().take(40).collect(),
+        };
+        let d: Vec<f64> = digits
+            .chars()
+            .map(|c| c.to_digit(10).map(f64::from))
+            .collect::<Option<_>>()
+            .ok_or_else(wrong)?;
+        let &[m, p, t1, t2] = d.as_slice() else {
+            return Err(wrong());
+        };
+        let thickness = (10.0 * t1 + t2) / 100.0;
+        if thickness == 0.0 || (m > 0.0 && p == 0.0) {
+            return Err(wrong());
+        }
+        Ok(Self {
+            camber: m / 100.0,
+            place: p / 10.0,
+            thickness,
+        })
+    }
+
+    /// The outline at `angle`: 0 at the trailing edge, π at the leading edge, 2π at the trailing edge again, upper
+    /// side first.
+    fn at(&self, angle: f64) -> [f64; 2] {
+        // s = ±√x makes the nose smooth in the angle.
+        let s = (0.5 * angle).cos();
+        if angle == 0.0 || angle == TAU {
+            return [1.0, 0.0];
+        }
+        if angle == PI {
+            return [0.0, 0.0];
+        }
+        let x = s * s;
+        let root = s.abs();
+        let half = 5.0
+            * self.thickness
+            * (root * 0.2969 + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x))));
+        let (camber, slope) = self.camber_line(x);
+        let length = slope.hypot(1.0);
+        let up = if s > 0.0 { half } else { -half };
+        [x - up * slope / length, camber + up / length]
+    }
+
+    /// Height and slope of the mean line at `x`.
+    fn camber_line(&self, x: f64) -> (f64, f64) {
+        let (m, p) = (self.camber, self.place);
+        if m == 0.0 {
+            return (0.0, 0.0);
+        }
+        let part = if x < p {
+            m / (p * p)
+        } else {
+            m / ((1.0 - p) * (1.0 - p))
+        };
+        let start = if x < p { 0.0 } else { 1.0 - 2.0 * p };
+        (part * (start + 2.0 * p * x - x * x), 2.0 * part * (p - x))
+    }
+}
+
+impl Outline {
+    /// The larger side of the box around it.
+    pub(super) fn extent(&self) -> f64 {
+        extent(&self.points)
+    }
+}

@@ -1,0 +1,127 @@
+//! Boxes along the axes.
+
+use std::sync::Arc;
+
+use sphpack_neighbors::{Bounds, point};
+
+use crate::GeometryError;
+use crate::surface::{Closest, Feature, Features, Surface};
+
+/// A rectangle (`D` = 2) or box (`D` = 3) along the axes; [`Placed`](crate::Placed) turns it. Every query is O(1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cuboid<const D: usize> {
+    bounds: Bounds<D>,
+}
+
+impl<const D: usize> Cuboid<D> {
+    /// The box between the corners `min` and `max`, scene units.
+    ///
+    /// # Errors
+    /// [`GeometryError::BadParameter`] unless both are finite and `min` is below `max` along every axis.
+    pub fn new(min: [f64; D], max: [f64; D]) -> Result<Self, GeometryError> {
+        GeometryError::check_finite("box", "min", min)?;
+        GeometryError::check_finite("box", "max", max)?;
+        for k in 0..D {
+            GeometryError::check_positive("box", "max - min", max[k] - min[k])?;
+        }
+        Ok(Self {
+            bounds: Bounds::new(min, max),
+        })
+    }
+
+    /// Corner number `bits`: bit `k` says whether it is at the upper end of axis `k`.
+    fn corner(&self, bits: usize) -> [f64; D] {
+        std::array::from_fn(|k| {
+            if bits >> k & 1 == 1 {
+                self.bounds.max[k]
+            } else {
+                self.bounds.min[k]
+            }
+        })
+    }
+}
+
+impl<const D: usize> Surface<D> for Cuboid<D> {
+    fn closest(&self, p: [f64; D]) -> Closest<D> {
+        let Bounds { min, max } = self.bounds;
+        let mut q: [f64; D] = std::array::from_fn(|k| p[k].max(min[k]).min(max[k]));
+        let inside = (0..D).all(|k| min[k] < p[k] && p[k] < max[k]);
+        if inside {
+            let mut best = (f64::INFINITY, 0, 0.0);
+            for k in 0..D {
+                for face in [min[k], max[k]] {
+                    let gap = (p[k] - face).abs();
+                    if gap < best.0 {
+                        best = (gap, k, face);
+                    }
+                }
+            }
+            q[best.1] = best.2;
+        }
+        let mut normal = [0.0; D];
+        let mut faces = 0;
+        for k in 0..D {
+            if q[k] == max[k] {
+                normal[k] = 1.0;
+                faces += 1;
+            } else if q[k] == min[k] {
+                normal[k] = -1.0;
+                faces += 1;
+            }
+        }
+        let distance = point::distance(p, q);
+        Closest {
+            point: q,
+            normal: point::unit(normal).unwrap_or(normal),
+            distance: if inside { -distance } else { distance },
+            feature: if faces <= 1 {
+                Feature::Smooth
+            } else if faces == D {
+                Feature::Corner
+            } else {
+                Feature::Edge
+            },
+        }
+    }
+
+    fn inside(&self, p: [f64; D]) -> bool {
+        (0..D).all(|k| self.bounds.min[k] < p[k] && p[k] < self.bounds.max[k])
+    }
+
+    fn measure(&self) -> f64 {
+        let size = self.bounds.size();
+        (0..D)
+            .map(|k| 2.0 * (0..D).filter(|&j| j != k).map(|j| size[j]).product::<f64>())
+            .sum()
+    }
+
+    fn volume(&self) -> f64 {
+        self.bounds.volume()
+    }
+
+    fn bounds(&self) -> Bounds<D> {
+        self.bounds
+    }
+
+    fn features(&self) -> Features<D> {
+        let corners = (0..1 << D).map(|bits| self.corner(bits)).collect();
+        let mut edges = Vec::new();
+        if D == 3 {
+            for bits in 0..1 << D {
+                for k in (0..D).filter(|k| bits >> k & 1 == 0) {
+                    edges.push(vec![self.corner(bits), self.corner(bits | 1 << k)]);
+                }
+            }
+        }
+        Features { corners, edges }
+    }
+
+    fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
+        GeometryError::check_depth(depth)?;
+        let bounds = self.bounds.grown(-depth);
+        if (0..D).any(|k| bounds.min[k] >= bounds.max[k]) {
+            return Err(GeometryError::Vanished { depth });
+        }
+        Ok(Arc::new(Self { bounds }))
+    }
+}

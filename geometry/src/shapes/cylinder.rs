@@ -1,0 +1,159 @@
+//! Round rods.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use sphpack_neighbors::{Bounds, point};
+
+use super::perpendicular;
+use crate::GeometryError;
+use crate::surface::{Closest, Feature, Features, Surface};
+
+/// Sides of the polyline that stands for each rim in [`Surface::features`].
+const RIM_SIDES: usize = 360;
+
+/// A circular cylinder with flat ends. Every query is O(1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cylinder {
+    start: [f64; 3],
+    axis: [f64; 3],
+    length: f64,
+    radius: f64,
+}
+
+impl Cylinder {
+    /// The cylinder of `radius` around the axis from `start` to `end` (the middles of its flat ends), scene units.
+    ///
+    /// # Errors
+    /// [`GeometryError::BadParameter`] unless all is finite, the ends differ and the radius is positive.
+    pub fn new(start: [f64; 3], end: [f64; 3], radius: f64) -> Result<Self, GeometryError> {
+        GeometryError::check_finite("cylinder", "start", start)?;
+        GeometryError::check_finite("cylinder", "end", end)?;
+        GeometryError::check_positive("cylinder", "radius", radius)?;
+        let along = point::sub(end, start);
+        let length = GeometryError::check_positive(
+            "cylinder",
+            "distance from start to end",
+            point::norm(along),
+        )?;
+        Ok(Self {
+            start,
+            axis: point::scale(along, 1.0 / length),
+            length,
+            radius,
+        })
+    }
+
+    fn end(&self) -> [f64; 3] {
+        point::add_scaled(self.start, self.length, self.axis)
+    }
+
+    /// Height along the axis, distance from it, and the direction away from it.
+    fn split(&self, p: [f64; 3]) -> (f64, f64, [f64; 3]) {
+        let from = point::sub(p, self.start);
+        let height = point::dot(from, self.axis);
+        let away = point::reject(from, self.axis);
+        let direction = point::unit(away).unwrap_or_else(|| perpendicular(self.axis));
+        (height, point::norm(away), direction)
+    }
+}
+
+impl Surface<3> for Cylinder {
+    fn closest(&self, p: [f64; 3]) -> Closest<3> {
+        let (height, away, direction) = self.split(p);
+        let inside = away < self.radius && 0.0 < height && height < self.length;
+        let (mut h, mut r) = (height.max(0.0).min(self.length), away.min(self.radius));
+        if inside {
+            let (to_side, to_start, to_end) = (self.radius - away, height, self.length - height);
+            if to_side <= to_start && to_side <= to_end {
+                r = self.radius;
+            } else if to_start <= to_end {
+                h = 0.0;
+            } else {
+                h = self.length;
+            }
+        }
+        let on_side = r == self.radius;
+        let cap = if h == 0.0 {
+            -1.0
+        } else if h == self.length {
+            1.0
+        } else {
+            0.0
+        };
+        let mut normal = point::scale(self.axis, cap);
+        if on_side {
+            normal = point::add(normal, direction);
+        }
+        let distance = (height - h).hypot(away - r);
+        Closest {
+            point: point::add_scaled(point::add_scaled(self.start, h, self.axis), r, direction),
+            normal: point::unit(normal).unwrap_or(direction),
+            distance: if inside { -distance } else { distance },
+            feature: if on_side && cap != 0.0 {
+                Feature::Edge
+            } else {
+                Feature::Smooth
+            },
+        }
+    }
+
+    fn inside(&self, p: [f64; 3]) -> bool {
+        let (height, away, _) = self.split(p);
+        away < self.radius && 0.0 < height && height < self.length
+    }
+
+    fn measure(&self) -> f64 {
+        TAU * self.radius * (self.radius + self.length)
+    }
+
+    fn volume(&self) -> f64 {
+        PI * self.radius * self.radius * self.length
+    }
+
+    fn bounds(&self) -> Bounds<3> {
+        let reach = self
+            .axis
+            .map(|a| self.radius * (1.0 - a * a).max(0.0).sqrt());
+        let mut bounds = Bounds::EMPTY;
+        for end in [self.start, self.end()] {
+            bounds.include(point::sub(end, reach));
+            bounds.include(point::add(end, reach));
+        }
+        bounds
+    }
+
+    /// Two closed edges, each a polyline of 360 sides with its vertices on the rim.
+    fn features(&self) -> Features<3> {
+        let u = perpendicular(self.axis);
+        let v = point::cross(self.axis, u);
+        let rim = |middle: [f64; 3]| -> Vec<[f64; 3]> {
+            let mut points: Vec<[f64; 3]> = (0..RIM_SIDES)
+                .map(|i| {
+                    let (sin, cos) = (TAU * i as f64 / RIM_SIDES as f64).sin_cos();
+                    let along_u = point::add_scaled(middle, self.radius * cos, u);
+                    point::add_scaled(along_u, self.radius * sin, v)
+                })
+                .collect();
+            points.push(points[0]);
+            points
+        };
+        Features {
+            corners: Vec::new(),
+            edges: vec![rim(self.start), rim(self.end())],
+        }
+    }
+
+    fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
+        GeometryError::check_depth(depth)?;
+        if depth >= self.radius || 2.0 * depth >= self.length {
+            return Err(GeometryError::Vanished { depth });
+        }
+        Ok(Arc::new(Self {
+            start: point::add_scaled(self.start, depth, self.axis),
+            axis: self.axis,
+            length: self.length - 2.0 * depth,
+            radius: self.radius - depth,
+        }))
+    }
+}

@@ -1,0 +1,110 @@
+//! Rings.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use sphpack_neighbors::{Bounds, point};
+
+use super::perpendicular;
+use crate::GeometryError;
+use crate::surface::{Closest, Feature, Features, Surface};
+
+/// A torus. Every query is O(1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Torus {
+    center: [f64; 3],
+    axis: [f64; 3],
+    major: f64,
+    minor: f64,
+}
+
+impl Torus {
+    /// The torus around `axis` through `center`: a tube of radius `minor` whose middle is `major` from the axis,
+    /// scene units.
+    ///
+    /// # Errors
+    /// [`GeometryError::BadParameter`] unless all is finite, the axis has a direction and 0 < minor < major.
+    pub fn new(
+        center: [f64; 3],
+        axis: [f64; 3],
+        major: f64,
+        minor: f64,
+    ) -> Result<Self, GeometryError> {
+        GeometryError::check_finite("torus", "center", center)?;
+        GeometryError::check_positive("torus", "length of axis", point::norm(axis))?;
+        GeometryError::check_positive("torus", "major", major)?;
+        GeometryError::check_positive("torus", "minor", minor)?;
+        if minor >= major {
+            return Err(GeometryError::BadParameter {
+                shape: "torus",
+                name: "minor",
+                value: minor,
+                needs: "smaller than major",
+            });
+        }
+        Ok(Self {
+            center,
+            axis: point::scale(axis, 1.0 / point::norm(axis)),
+            major,
+            minor,
+        })
+    }
+
+    /// From the nearest point of the middle circle to `p`, that point, and the direction to it from the centre.
+    fn off_ring(&self, p: [f64; 3]) -> ([f64; 3], [f64; 3], [f64; 3]) {
+        let away = point::reject(point::sub(p, self.center), self.axis);
+        let direction = point::unit(away).unwrap_or_else(|| perpendicular(self.axis));
+        let ring = point::add_scaled(self.center, self.major, direction);
+        (point::sub(p, ring), ring, direction)
+    }
+}
+
+impl Surface<3> for Torus {
+    fn closest(&self, p: [f64; 3]) -> Closest<3> {
+        let (away, ring, direction) = self.off_ring(p);
+        let normal = point::unit(away).unwrap_or(direction);
+        Closest {
+            point: point::add_scaled(ring, self.minor, normal),
+            normal,
+            distance: point::norm(away) - self.minor,
+            feature: Feature::Smooth,
+        }
+    }
+
+    fn inside(&self, p: [f64; 3]) -> bool {
+        point::norm(self.off_ring(p).0) < self.minor
+    }
+
+    fn measure(&self) -> f64 {
+        4.0 * PI * PI * self.major * self.minor
+    }
+
+    fn volume(&self) -> f64 {
+        2.0 * PI * PI * self.major * self.minor * self.minor
+    }
+
+    fn bounds(&self) -> Bounds<3> {
+        let reach = self
+            .axis
+            .map(|a| self.major * (1.0 - a * a).max(0.0).sqrt() + self.minor);
+        Bounds::new(
+            point::sub(self.center, reach),
+            point::add(self.center, reach),
+        )
+    }
+
+    fn features(&self) -> Features<3> {
+        Features::default()
+    }
+
+    fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
+        GeometryError::check_depth(depth)?;
+        if depth >= self.minor {
+            return Err(GeometryError::Vanished { depth });
+        }
+        Ok(Arc::new(Self {
+            minor: self.minor - depth,
+            ..*self
+        }))
+    }
+}

@@ -1,0 +1,169 @@
+//! Density and forces of a particle set, evaluated again and again while it moves.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+use sphpack_kernels::KernelKind;
+use sphpack_neighbors::{CellList, Domain, Slot};
+
+use crate::pair_sums::{PairLoop, Sums};
+use crate::particles::Particles;
+use crate::problem::Problem;
+use crate::repulsion::Repulsion;
+
+/// Particles per block of a reduction. Fixed, so that sums have the same bits for any number of threads.
+const REDUCTION_BLOCK: usize = 4096;
+
+/// Evaluates Γ, ∇Γ, repulsion and energy; keeps the neighbour list between calls.
+#[derive(Debug)]
+pub struct Forces<const D: usize> {
+    kernel: KernelKind,
+    smoothing_length: f64,
+    /// The repulsion, which may be changed between evaluations.
+    pub repulsion: Repulsion,
+    list: CellList<D>,
+    slots: Vec<Slot>,
+    sums: Vec<Sums<D>>,
+    evaluations: usize,
+    neighbor_seconds: f64,
+    force_seconds: f64,
+}
+
+impl<const D: usize> Forces<D> {
+    /// An evaluator for a kernel of the given smoothing length; lists have a skin of `skin` (scene units).
+    pub fn new(
+        domain: &Domain<D>,
+        kernel: KernelKind,
+        smoothing_length: f64,
+        skin: f64,
+        repulsion: Repulsion,
+    ) -> Self {
+        let support = kernel.support_over_h() * smoothing_length;
+        Self {
+            kernel,
+            smoothing_length,
+            repulsion,
+            list: CellList::new(domain, support.max(repulsion.reach())).with_skin(skin),
+            slots: Vec::new(),
+            sums: Vec::new(),
+            evaluations: 0,
+            neighbor_seconds: 0.0,
+            force_seconds: 0.0,
+        }
+    }
+
+    /// The evaluator that a problem asks for.
+    pub fn of(problem: &Problem<D>, repulsion: Repulsion) -> Self {
+        Self::new(
+            &problem.domain,
+            problem.kernel,
+            problem.smoothing_length(),
+            problem.skin(),
+            repulsion,
+        )
+    }
+
+    /// Evaluates everything at the present positions. Frozen particles are sources only. O(n), parallel; allocates
+    /// only when the neighbour list is built anew.
+    pub fn evaluate(&mut self, particles: &Particles<D>) {
+        let is_target = |i: usize| particles.kind[i] != crate::Kind::Frozen;
+        self.evaluate_plain(&particles.position, &particles.volume, is_target);
+    }
+
+    /// [`Forces::evaluate`] on plain slices.
+    pub fn evaluate_plain(
+        &mut self,
+        positions: &[[f64; D]],
+        volumes: &[f64],
+        is_target: impl Fn(usize) -> bool + Sync,
+    ) {
+        let start = Instant::now();
+        if self.list.update(positions, is_target) {
+            self.sums.resize(self.list.targets(), Sums::ZERO);
+        }
+        let listed = Instant::now();
+        self.list.gather(positions, volumes, &mut self.slots);
+        let pairs = PairLoop {
+            list: &self.list,
+            slots: &self.slots,
+            repulsion: self.repulsion,
+            out: &mut self.sums,
+        };
+        self.kernel.with(self.smoothing_length, pairs);
+        self.evaluations += 1;
+        self.neighbor_seconds += (listed - start).as_secs_f64();
+        self.force_seconds += listed.elapsed().as_secs_f64();
+    }
+
+    /// Must be called when a particle starts or stops being frozen.
+    pub fn targets_changed(&mut self) {
+        self.list.invalidate();
+    }
+
+    #[inline]
+    fn sums(&self, i: usize) -> Sums<D> {
+        self.list
+            .slot_of(i)
+            .map_or(Sums::ZERO, |slot| self.sums[slot])
+    }
+
+    /// Γ of particle `i` at the last evaluation; 0 for frozen ones.
+    #[inline]
+    pub fn gamma(&self, i: usize) -> f64 {
+        self.sums(i).gamma
+    }
+
+    /// ∇Γ of particle `i` at the last evaluation, per scene unit; zero for frozen ones.
+    #[inline]
+    pub fn gradient(&self, i: usize) -> [f64; D] {
+        self.sums(i).gradient
+    }
+
+    /// −∇Γ plus repulsion: the acceleration of particle `i` for p_b = 1 (001 eqs. 13 and 16), per scene unit.
+    #[inline]
+    pub fn acceleration(&self, i: usize) -> [f64; D] {
+        let sums = self.sums(i);
+        std::array::from_fn(|k| sums.repulsion[k] - sums.gradient[k])
+    }
+
+    /// The energy whose negative gradient the accelerations are (for equal volumes), per particle volume:
+    /// ½ Σ_ij V W_ij + Σ_pairs φ_R, every pair with a frozen particle counted once.
+    pub fn energy(&self) -> f64 {
+        blocked_sum(&self.sums, |sums| {
+            0.5 * (sums.gamma + sums.gamma_of_others) + sums.repulsion_energy
+        })
+    }
+
+    /// Evaluations so far.
+    pub fn evaluations(&self) -> usize {
+        self.evaluations
+    }
+
+    /// Seconds spent on keeping neighbour lists, and on the pair loop.
+    pub fn seconds(&self) -> (f64, f64) {
+        (self.neighbor_seconds, self.force_seconds)
+    }
+
+    /// The neighbour list of the last evaluation.
+    pub fn list(&self) -> &CellList<D> {
+        &self.list
+    }
+}
+
+/// Σ f over the values in blocks of fixed size: the same bits for any number of threads.
+pub(crate) fn blocked_sum<T: Sync>(values: &[T], f: impl Fn(&T) -> f64 + Sync) -> f64 {
+    let partial: Vec<f64> = values
+        .par_chunks(REDUCTION_BLOCK)
+        .map(|block| block.iter().map(&f).sum())
+        .collect();
+    partial.iter().sum()
+}
+
+/// The largest f(i) for `i` in `0..n`, in parallel; 0 for none. NaN is passed on, so that nothing hides it.
+pub(crate) fn largest(n: usize, f: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
+    (0..n)
+        .into_par_iter()
+        .with_min_len(REDUCTION_BLOCK)
+        .map(f)
+        .reduce(|| 0.0, |a, b| if b > a || b.is_nan() { b } else { a })
+}

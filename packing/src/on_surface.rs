@@ -1,0 +1,106 @@
+//! Particles that live on surfaces: capturing them and keeping them there.
+
+use rayon::prelude::*;
+use sphpack_neighbors::point;
+
+use crate::packed::ParticleSurface;
+use crate::particles::{Kind, Particles};
+
+/// The boundary particles and the outward normals where they sit.
+#[derive(Debug, Clone, Default)]
+pub struct OnSurface<const D: usize> {
+    /// Particle indices, ascending.
+    pub index: Vec<usize>,
+    /// The outward unit normal of the particle surface at each.
+    pub normal: Vec<[f64; D]>,
+    /// Normals by particle, zero for those that are not on a surface.
+    normal_of: Vec<[f64; D]>,
+}
+
+impl<const D: usize> OnSurface<D> {
+    /// Finds the boundary particles anew.
+    pub fn refresh(&mut self, particles: &Particles<D>) {
+        self.index.clear();
+        self.index
+            .extend((0..particles.len()).filter(|&i| particles.kind[i] == Kind::Boundary));
+        self.normal_of.clear();
+        self.normal_of.resize(particles.len(), [0.0; D]);
+    }
+
+    /// Moves every boundary particle to the nearest point of its surface and takes the normal there. A particle that
+    /// finds no surface within `reach` stays where it is.
+    pub fn project(
+        &mut self,
+        particles: &mut Particles<D>,
+        surfaces: &[ParticleSurface<D>],
+        reach: f64,
+    ) {
+        let hits: Vec<_> = self
+            .index
+            .par_iter()
+            .with_min_len(64)
+            .map(|&i| {
+                let surface = &surfaces[usize::from(particles.body[i].unwrap_or(0))].surface;
+                surface.closest_within(particles.position[i], reach)
+            })
+            .collect();
+        self.normal.clear();
+        for (&i, hit) in self.index.iter().zip(hits) {
+            let normal = match hit {
+                Some(hit) => {
+                    particles.position[i] = hit.point;
+                    hit.normal
+                }
+                None => self.normal_of[i],
+            };
+            self.normal_of[i] = normal;
+            self.normal.push(normal);
+        }
+    }
+
+    /// `v` without its part along the surface normal of particle `i`; `v` itself for particles on no surface.
+    #[inline]
+    pub fn tangential(&self, i: usize, v: [f64; D]) -> [f64; D] {
+        point::reject(v, self.normal_of[i])
+    }
+}
+
+/// Turns every free particle within `distance` (scene units) of a surface into a boundary particle of the nearest
+/// one; returns how many. 001 algorithm 1, with the exact closest point in place of r_pb · n_b.
+pub fn capture<const D: usize>(
+    particles: &mut Particles<D>,
+    surfaces: &[ParticleSurface<D>],
+    distance: f64,
+) -> usize {
+    let free: Vec<usize> = (0..particles.len())
+        .filter(|&i| particles.kind[i] == Kind::Free)
+        .collect();
+    let nearest: Vec<Option<u16>> = free
+        .par_iter()
+        .with_min_len(256)
+        .map(|&i| {
+            let mut best: Option<(f64, u16)> = None;
+            for (surface, body) in surfaces.iter().zip(0_u16..) {
+                if let Some(hit) = surface
+                    .surface
+                    .closest_within(particles.position[i], distance)
+                {
+                    let d = hit.distance.abs();
+                    if d < distance && best.is_none_or(|(least, _)| d < least) {
+                        best = Some((d, body));
+                    }
+                }
+            }
+            best.map(|(_, body)| body)
+        })
+        .collect();
+    let mut captured = 0;
+    for (&i, body) in free.iter().zip(nearest) {
+        if let Some(body) = body {
+            particles.kind[i] = Kind::Boundary;
+            particles.body[i] = Some(body);
+            captured += 1;
+        }
+    }
+    captured
+}

@@ -1,0 +1,120 @@
+//! Particles on a lattice, at the start.
+
+use sphpack_neighbors::KdTree;
+
+use crate::lattice::Lattice;
+use crate::packed::ParticleSurface;
+use crate::particles::{Kind, Particles};
+use crate::problem::{FrozenLayout, PackingError, Problem};
+
+/// Fills the box with free particles on the problem's lattice, and surrounds it with frozen ones.
+///
+/// # Errors
+/// Those of [`Problem::check`].
+pub fn seed<const D: usize>(problem: &Problem<D>) -> Result<Particles<D>, PackingError> {
+    problem.check()?;
+    let filling = problem.filling();
+    let volume = filling.volume_per_site();
+    let depth = problem.frozen_depth();
+    let frozen = match problem.frozen {
+        FrozenLayout::Lattice => filling.continued(&problem.domain, depth),
+        FrozenLayout::Square => {
+            let ring = if D == 2 {
+                Lattice::Square
+            } else {
+                Lattice::SimpleCubic
+            };
+            ring.fill(problem.domain.bounds, problem.spacing)
+                .continued(&problem.domain, depth)
+        }
+    };
+    let mut particles = Particles::default();
+    for site in filling.sites() {
+        particles.push(site, Kind::Free, volume, None);
+    }
+    for site in frozen {
+        particles.push(site, Kind::Frozen, volume, None);
+    }
+    Ok(particles)
+}
+
+/// The particle surface of every body: the true surface moved inward by its inset.
+///
+/// # Errors
+/// [`PackingError::Surface`] where nothing is left of a body.
+pub fn particle_surfaces<const D: usize>(
+    problem: &Problem<D>,
+) -> Result<Vec<ParticleSurface<D>>, PackingError> {
+    problem
+        .bodies
+        .iter()
+        .map(|body| {
+            let surface = if body.inset_over_spacing == 0.0 {
+                body.surface.clone()
+            } else {
+                let depth = body.inset_over_spacing * problem.spacing;
+                body.surface
+                    .inset(depth)
+                    .map_err(|source| PackingError::Surface {
+                        body: body.name.clone(),
+                        source,
+                    })?
+            };
+            let target = surface.measure() / problem.spacing.powi(D as i32 - 1);
+            Ok(ParticleSurface {
+                surface,
+                target_count: target.round().max(1.0) as usize,
+            })
+        })
+        .collect()
+}
+
+/// Corners nearer than this to a fixed particle, in ∆s, get none of their own.
+const CORNER_CLEARANCE: f64 = 0.5;
+
+/// Puts the nearest free particle on every corner of every surface and fixes it there (001 §3.1.1, fig. 4). Corners
+/// that crowd one another share a particle.
+pub fn fix_corners<const D: usize>(
+    particles: &mut Particles<D>,
+    surfaces: &[ParticleSurface<D>],
+    spacing: f64,
+) {
+    let corners: Vec<(u16, [f64; D])> = surfaces
+        .iter()
+        .zip(0_u16..)
+        .flat_map(|(surface, body)| {
+            surface
+                .surface
+                .features()
+                .corners
+                .into_iter()
+                .map(move |c| (body, c))
+        })
+        .collect();
+    if corners.is_empty() {
+        return;
+    }
+    // The tree stands still while particles move onto corners: those are kinds other than free by then.
+    let Ok(tree) = KdTree::new(&particles.position) else {
+        return;
+    };
+    let mut taken: Vec<[f64; D]> = Vec::new();
+    for (body, corner) in corners {
+        let crowded = taken.iter().any(|&other| {
+            sphpack_neighbors::point::distance(other, corner) < CORNER_CLEARANCE * spacing
+        });
+        if crowded {
+            continue;
+        }
+        let near = tree.nearest_n(corner, 16);
+        if let Some(hit) = near
+            .into_iter()
+            .find(|hit| particles.kind[hit.index] == Kind::Free)
+        {
+            particles.position[hit.index] = corner;
+            particles.kind[hit.index] = Kind::Fixed;
+            particles.body[hit.index] = Some(body);
+            taken.push(corner);
+        }
+    }
+}
