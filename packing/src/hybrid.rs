@@ -46,7 +46,7 @@ impl Default for Hybrid {
             projection_frequency: 50,
             capture_over_spacing: [0.5, 0.65],
             empty_passes: 4,
-            damping: 0.35,
+            damping: 0.2,
             repulsion: STRENGTH,
         }
     }

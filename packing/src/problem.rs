@@ -50,6 +50,8 @@ pub struct Problem<const D: usize> {
     pub lattice: Option<Lattice>,
     /// The frozen particles' arrangement.
     pub frozen: FrozenLayout,
+    /// Where a search for the lattice's phase begins; another seed gives another, equally good packing.
+    pub seed: u64,
 }
 
 /// Why a problem cannot be packed.
@@ -162,6 +164,7 @@ impl<const D: usize> Problem<D> {
             h_over_spacing: 1.2,
             lattice: None,
             frozen: FrozenLayout::default(),
+            seed: 0,
         }
     }
 

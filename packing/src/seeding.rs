@@ -2,10 +2,64 @@
 
 use sphpack_neighbors::KdTree;
 
-use crate::lattice::Lattice;
+use crate::lattice::{Filling, Lattice};
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::problem::{FrozenLayout, PackingError, Problem};
+
+/// Phases that are tried, and the number of sites up to which they are: what a lattice happens to put into a body is
+/// off by some of the sites near its surface, which is little of many.
+const PHASES: u64 = 24;
+const SITES_WORTH_A_SEARCH: u64 = 200_000;
+
+/// Shifts the lattice so that every body gets as many sites as its volume asks for, as closely as [`PHASES`] tries
+/// allow. The papers do not say where a lattice begins; on a lattice that shares the body's symmetry whole rings of
+/// sites fall in or out together, and the body's density with them (1.3 % for a cylinder R = 10 ∆s).
+fn in_phase<const D: usize>(problem: &Problem<D>, filling: Filling<D>) -> Filling<D> {
+    if filling.count() > SITES_WORTH_A_SEARCH || problem.bodies.is_empty() {
+        return filling.shifted(phase(problem.seed));
+    }
+    let volume = filling.volume_per_site();
+    let mut best = (f64::INFINITY, filling);
+    for number in 0..PHASES {
+        let candidate = filling.shifted(phase(
+            problem.seed.wrapping_mul(PHASES).wrapping_add(number),
+        ));
+        let sites = candidate.sites();
+        let mut worst: f64 = 0.0;
+        for body in &problem.bodies {
+            let bounds = body.surface.bounds();
+            let near: Vec<[f64; D]> = sites
+                .iter()
+                .copied()
+                .filter(|&p| bounds.contains(p))
+                .collect();
+            let count = body
+                .surface
+                .inside_batch(&near)
+                .into_iter()
+                .filter(|&inside| inside)
+                .count();
+            worst = worst.max((count as f64 - body.surface.volume() / volume).abs());
+        }
+        if worst < best.0 {
+            best = (worst, candidate);
+        }
+    }
+    best.1
+}
+
+/// The n-th point of an additive recurrence that covers the unit cube evenly; the 0th is the origin.
+fn phase<const D: usize>(n: u64) -> [f64; D] {
+    // Powers of the inverse of the root of x^(D+1) = x + 1.
+    let root: f64 = if D == 2 {
+        1.324_717_957_244_746
+    } else {
+        1.220_744_084_605_76
+    };
+    let n = (n % (1 << 32)) as f64;
+    std::array::from_fn(|k| (n * root.powi(-(k as i32 + 1))).fract())
+}
 
 /// Fills the box with free particles on the problem's lattice, and surrounds it with frozen ones.
 ///
@@ -13,7 +67,7 @@ use crate::problem::{FrozenLayout, PackingError, Problem};
 /// Those of [`Problem::check`].
 pub fn seed<const D: usize>(problem: &Problem<D>) -> Result<Particles<D>, PackingError> {
     problem.check()?;
-    let filling = problem.filling();
+    let filling = in_phase(problem, problem.filling());
     let volume = filling.volume_per_site();
     let depth = problem.frozen_depth();
     let frozen = match problem.frozen {

@@ -1,0 +1,84 @@
+//! The SPH procedure of paper 001 §3.1.7.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use sphpack_geometry::Surface;
+use sphpack_neighbors::KdTree;
+
+use crate::labels::{Labels, SeparationError, check, combine};
+
+/// Labels particles as paper 001 §3.1.7 does: those within `reach` of a surface by its exact closest point (steps 1
+/// and 2, with the surface in place of its nearest node, whose averaged normal misleads at sharp tips), the others by
+/// a flood outward from that layer (step 3), each from a neighbour within `reach` that has its label.
+///
+/// A particle farther than `reach` from the surface and a neighbour nearer than `reach` to it are never on different
+/// sides, so the flood makes no mistakes and its order does not matter; it goes layer by layer, by ascending index.
+/// Particles that no neighbour reaches are asked about one by one. `reach` of about two spacings is a good choice.
+///
+/// `on_surface[i]` names the surface that particle `i` sits on, whose body it belongs to. O(n log n) for each surface.
+///
+/// # Errors
+/// A [`SeparationError`] for slices that do not fit together, positions that are not finite, or a senseless reach.
+pub fn separate<const D: usize>(
+    positions: &[[f64; D]],
+    on_surface: &[Option<u16>],
+    surfaces: &[Arc<dyn Surface<D>>],
+    reach: f64,
+) -> Result<Labels, SeparationError> {
+    check(positions, on_surface, surfaces.len())?;
+    if !(reach > 0.0 && reach.is_finite()) {
+        return Err(SeparationError::BadReach(reach));
+    }
+    let tree = KdTree::new(positions).map_err(|_| SeparationError::NotFinite { index: 0 })?;
+    let held = surfaces
+        .iter()
+        .map(|surface| flood(positions, surface.as_ref(), &tree, reach));
+    Ok(combine(on_surface, held))
+}
+
+fn flood<const D: usize>(
+    positions: &[[f64; D]],
+    surface: &dyn Surface<D>,
+    tree: &KdTree<D>,
+    reach: f64,
+) -> Vec<bool> {
+    // Steps 1 and 2.
+    let near = surface.closest_batch(positions, reach);
+    let mut inside: Vec<Option<bool>> = near
+        .into_iter()
+        .map(|hit| hit.map(|hit| hit.distance < 0.0))
+        .collect();
+    // Step 3.
+    let mut layer: Vec<usize> = (0..positions.len())
+        .filter(|&i| inside[i].is_some())
+        .collect();
+    while !layer.is_empty() {
+        let reached: Vec<(usize, bool)> = layer
+            .par_iter()
+            .with_min_len(64)
+            .flat_map_iter(|&i| {
+                let label = inside[i].unwrap_or(false);
+                let found = tree.within(positions[i], reach);
+                let inside = &inside;
+                found
+                    .into_iter()
+                    .filter(|hit| inside[hit.index].is_none())
+                    .map(move |hit| (hit.index, label))
+            })
+            .collect();
+        layer.clear();
+        for (i, label) in reached {
+            if inside[i].is_none() {
+                inside[i] = Some(label);
+                layer.push(i);
+            }
+        }
+        layer.sort_unstable();
+    }
+    inside
+        .into_par_iter()
+        .zip(positions)
+        .map(|(label, &p)| label.unwrap_or_else(|| surface.inside(p)))
+        .collect()
+}

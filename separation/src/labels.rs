@@ -1,0 +1,151 @@
+//! Labels, and the plain way to get them.
+
+use std::sync::Arc;
+
+use sphpack_geometry::Surface;
+
+/// What a particle is part of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// Part of a body.
+    Solid,
+    /// Outside every body.
+    Fluid,
+}
+
+impl Side {
+    /// Both, in the order of their numbers in files.
+    pub const ALL: [Self; 2] = [Self::Solid, Self::Fluid];
+
+    /// The name that files use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solid => "solid",
+            Self::Fluid => "fluid",
+        }
+    }
+}
+
+/// Side and body of every particle, in the particles' order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Labels {
+    /// Solid or fluid.
+    pub side: Vec<Side>,
+    /// The index of the body; `None` for fluid. Where bodies overlap, the first.
+    pub body: Vec<Option<u16>>,
+}
+
+/// Why particles cannot be separated.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SeparationError {
+    /// A particle has no place.
+    #[error(
+        "particle {index} has a coordinate that is not a finite number; repair the particle file"
+    )]
+    NotFinite {
+        /// The first such particle.
+        index: usize,
+    },
+    /// Slices of different lengths.
+    #[error(
+        "{positions} positions but {on_surface} entries that say which surface they are on; give one for each"
+    )]
+    LengthMismatch {
+        /// Number of positions.
+        positions: usize,
+        /// Number of entries.
+        on_surface: usize,
+    },
+    /// A particle is on a surface that is not there.
+    #[error("particle {index} is said to be on surface {surface}, but there are only {surfaces}")]
+    UnknownSurface {
+        /// The particle.
+        index: usize,
+        /// The surface it names.
+        surface: u16,
+        /// How many there are.
+        surfaces: usize,
+    },
+    /// The reach is no length.
+    #[error(
+        "the reach is {0}; it must be a positive, finite length of about two particle spacings"
+    )]
+    BadReach(f64),
+}
+
+pub(crate) fn check<const D: usize>(
+    positions: &[[f64; D]],
+    on_surface: &[Option<u16>],
+    surfaces: usize,
+) -> Result<(), SeparationError> {
+    if positions.len() != on_surface.len() {
+        return Err(SeparationError::LengthMismatch {
+            positions: positions.len(),
+            on_surface: on_surface.len(),
+        });
+    }
+    if let Some(index) = positions
+        .iter()
+        .position(|p| p.iter().any(|x| !x.is_finite()))
+    {
+        return Err(SeparationError::NotFinite { index });
+    }
+    for (index, surface) in on_surface.iter().enumerate() {
+        if let Some(surface) = *surface
+            && usize::from(surface) >= surfaces
+        {
+            return Err(SeparationError::UnknownSurface {
+                index,
+                surface,
+                surfaces,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Labels from which particles each body holds; `on_surface` has the last word. The first body wins.
+pub(crate) fn combine(on_surface: &[Option<u16>], held: impl Iterator<Item = Vec<bool>>) -> Labels {
+    let mut body: Vec<Option<u16>> = vec![None; on_surface.len()];
+    for (inside, number) in held.zip(0_u16..) {
+        for (label, inside) in body.iter_mut().zip(inside) {
+            if inside && label.is_none() {
+                *label = Some(number);
+            }
+        }
+    }
+    for (label, on) in body.iter_mut().zip(on_surface) {
+        *label = on.or(*label);
+    }
+    let side = body
+        .iter()
+        .map(|label| {
+            if label.is_some() {
+                Side::Solid
+            } else {
+                Side::Fluid
+            }
+        })
+        .collect();
+    Labels { side, body }
+}
+
+/// Asks every surface about every particle. `on_surface[i]` names the surface that particle `i` sits on, whose body it
+/// belongs to. O(n · cost of an inside test), parallel.
+///
+/// # Errors
+/// A [`SeparationError`] for slices that do not fit together or positions that are not finite.
+pub fn separate_by_inside_tests<const D: usize>(
+    positions: &[[f64; D]],
+    on_surface: &[Option<u16>],
+    surfaces: &[Arc<dyn Surface<D>>],
+) -> Result<Labels, SeparationError> {
+    check(positions, on_surface, surfaces.len())?;
+    Ok(combine(
+        on_surface,
+        surfaces
+            .iter()
+            .map(|surface| surface.inside_batch(positions)),
+    ))
+}

@@ -1,0 +1,142 @@
+//! The flood agrees with the inside tests, on every kind of body.
+
+use std::sync::Arc;
+
+use proptest::prelude::*;
+use sphpack_geometry::{Ball, Cuboid, Ellipsoid, Outline, Surface, Torus};
+
+use crate::{SeparationError, Side, separate, separate_by_inside_tests};
+
+fn bodies_2d() -> Vec<Arc<dyn Surface<2>>> {
+    let wedge = |degrees: f64| {
+        let half = 0.5 * degrees.to_radians().tan();
+        Outline::polygon(&[[-0.7, 0.0], [0.7, -1.4 * half], [0.7, 1.4 * half]])
+            .expect("a sound wedge")
+    };
+    let ring = Outline::new(vec![
+        vec![[-0.6, -0.6], [0.6, -0.6], [0.6, 0.6], [-0.6, 0.6]],
+        vec![[-0.3, -0.3], [0.3, -0.3], [0.3, 0.3], [-0.3, 0.3]],
+    ]);
+    vec![
+        Arc::new(Ball::new([0.1, 0.0], 0.6).expect("a sound ball")),
+        Arc::new(wedge(20.0)),
+        Arc::new(wedge(6.0)),
+        Arc::new(ring.expect("a sound ring")),
+        Arc::new(Outline::starfish([0.0; 2], 0.5, 0.25, 5).expect("a sound starfish")),
+        Arc::new(Outline::naca("0012", 1.2).expect("a sound airfoil")),
+    ]
+}
+
+fn bodies_3d() -> Vec<Arc<dyn Surface<3>>> {
+    vec![
+        Arc::new(Ball::new([0.1, 0.0, 0.0], 0.6).expect("a sound ball")),
+        Arc::new(Cuboid::new([-0.5; 3], [0.4, 0.6, 0.5]).expect("a sound box")),
+        Arc::new(Ellipsoid::new([0.0; 3], [0.7, 0.4, 0.3]).expect("a sound ellipsoid")),
+        Arc::new(Torus::new([0.0; 3], [0.0, 0.0, 1.0], 0.5, 0.2).expect("a sound torus")),
+    ]
+}
+
+/// A shaken grid over [−1, 1]^D.
+fn grid<const D: usize>(spacing: f64, shake: f64, seed: u64) -> Vec<[f64; D]> {
+    let n = (2.0 / spacing) as usize;
+    let mut state = seed;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    (0..n.pow(D as u32))
+        .map(|i| {
+            std::array::from_fn(|k| {
+                -1.0 + spacing * ((i / n.pow(k as u32) % n) as f64 + 0.5 + shake * random())
+            })
+        })
+        .collect()
+}
+
+fn check<const D: usize>(
+    points: &[[f64; D]],
+    bodies: &[Arc<dyn Surface<D>>],
+    reach: f64,
+) -> Result<(), TestCaseError> {
+    let nobody = vec![None; points.len()];
+    for body in bodies {
+        let one = std::slice::from_ref(body);
+        let flood = separate(points, &nobody, one, reach).expect("sound input");
+        let asked = separate_by_inside_tests(points, &nobody, one).expect("sound input");
+        for i in 0..points.len() {
+            let on_it = body.closest(points[i]).distance.abs() < 1e-12;
+            prop_assert!(
+                on_it || flood.body[i] == asked.body[i],
+                "{body:?} at {:?}",
+                points[i]
+            );
+            prop_assert_eq!(flood.side[i] == Side::Solid, flood.body[i].is_some());
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(16))]
+
+    #[test]
+    fn flood_and_inside_tests_agree(seed in any::<u64>(), spacing in 0.06..0.2_f64, shake in 0.0..1.5_f64, reach in 0.5..3.0_f64) {
+        check(&grid::<2>(spacing, shake, seed), &bodies_2d(), reach * spacing)?;
+        check(&grid::<3>(1.5 * spacing, shake, seed), &bodies_3d(), 1.5 * reach * spacing)?;
+    }
+}
+
+#[test]
+fn the_first_of_overlapping_bodies_wins_and_surfaces_have_the_last_word() {
+    let at =
+        |x: f64| Arc::new(Ball::new([x, 0.0], 0.5).expect("a sound ball")) as Arc<dyn Surface<2>>;
+    let bodies = [at(0.0), at(0.6)];
+    let points = [[0.3, 0.0], [0.9, 0.0], [-0.3, 0.0], [0.0, 0.9]];
+    let labels = separate(&points, &[None; 4], &bodies, 0.3).expect("sound input");
+    assert_eq!(labels.body, [Some(0), Some(1), Some(0), None]);
+    let labels =
+        separate(&points, &[Some(1), None, None, Some(1)], &bodies, 0.3).expect("sound input");
+    assert_eq!(labels.body, [Some(1), Some(1), Some(0), Some(1)]);
+}
+
+#[test]
+fn lonely_particles_are_asked_about() {
+    let bodies = [Arc::new(Ball::new([0.0; 2], 1.0).expect("a sound ball")) as Arc<dyn Surface<2>>];
+    let labels =
+        separate(&[[0.0, 0.0], [9.0, 9.0]], &[None; 2], &bodies, 0.01).expect("sound input");
+    assert_eq!(labels.side, [Side::Solid, Side::Fluid]);
+    assert!(
+        separate::<2>(&[], &[], &bodies, 0.1)
+            .expect("sound input")
+            .side
+            .is_empty()
+    );
+    let free = separate(&[[0.0, 0.0]], &[None], &[], 0.1).expect("sound input");
+    assert_eq!(free.side, [Side::Fluid]);
+}
+
+#[test]
+fn senseless_input_is_refused() {
+    let bodies = [Arc::new(Ball::new([0.0; 2], 1.0).expect("a sound ball")) as Arc<dyn Surface<2>>];
+    let refused = |points: &[[f64; 2]], on: &[Option<u16>], reach: f64| {
+        separate(points, on, &bodies, reach).expect_err("refused")
+    };
+    assert!(matches!(
+        refused(&[[f64::NAN, 0.0]], &[None], 0.1),
+        SeparationError::NotFinite { index: 0 }
+    ));
+    assert!(matches!(
+        refused(&[[0.0, 0.0]], &[], 0.1),
+        SeparationError::LengthMismatch { .. }
+    ));
+    assert!(matches!(
+        refused(&[[0.0, 0.0]], &[Some(3)], 0.1),
+        SeparationError::UnknownSurface { surface: 3, .. }
+    ));
+    assert!(matches!(
+        refused(&[[0.0, 0.0]], &[None], 0.0),
+        SeparationError::BadReach(_)
+    ));
+}
