@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::Number;
-use crate::kernel::{Profile, Scaled, per_dimension};
+use crate::kernel::{Profile, Scaled, below, per_dimension};
 
 /// The cubic spline M₄, support 2h: w(q) = ¼(2−q)³₊ − (1−q)³₊ with σ = 2/3, 10/(7π), 1/π.
 pub type Cubic<const D: usize> = Scaled<CubicProfile, D>;
@@ -18,13 +18,13 @@ impl<const D: usize> Profile<D> for CubicProfile {
 
     #[inline(always)]
     fn value<N: Number>(q: N) -> N {
-        let [a, b] = [2.0, 1.0].map(|join| (q.constant(join) - q).positive());
+        let (a, b) = (below(2.0, q), below(1.0, q));
         q.constant(0.25) * a * a * a - b * b * b
     }
 
     #[inline(always)]
     fn slope_over_q<N: Number>(q: N) -> N {
-        let [a, b] = [2.0, 1.0].map(|join| (q.constant(join) - q).positive());
+        let (a, b) = (below(2.0, q), below(1.0, q));
         (q.constant(3.0) * b * b - q.constant(0.75) * a * a) / q
     }
 }

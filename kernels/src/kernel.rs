@@ -119,3 +119,9 @@ pub(crate) const fn per_dimension(dimension: usize, table: [f64; 3]) -> f64 {
     );
     table[dimension - 1]
 }
+
+/// max(join − q, 0), the piece of a spline below its join.
+#[inline(always)]
+pub(crate) fn below<N: Number>(join: f64, q: N) -> N {
+    (q.constant(join) - q).positive()
+}

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::Number;
-use crate::kernel::{Profile, Scaled, per_dimension};
+use crate::kernel::{Profile, Scaled, below, per_dimension};
 
 /// The quintic spline M₆, support 3h (paper 001 eq. 14; σ₃ of paper 000 eq. 3 is a misprint).
 ///
@@ -20,7 +20,7 @@ impl<const D: usize> Profile<D> for QuinticProfile {
 
     #[inline(always)]
     fn value<N: Number>(q: N) -> N {
-        let [a, b, c] = [3.0, 2.0, 1.0].map(|join| (q.constant(join) - q).positive());
+        let (a, b, c) = (below(3.0, q), below(2.0, q), below(1.0, q));
         let (a2, b2, c2) = (a * a, b * b, c * c);
         let outer = (a2 * a2).multiply_add(a, q.constant(-6.0) * (b2 * b2 * b));
         (q.constant(15.0) * c2 * c2).multiply_add(c, outer)
@@ -28,7 +28,7 @@ impl<const D: usize> Profile<D> for QuinticProfile {
 
     #[inline(always)]
     fn slope_over_q<N: Number>(q: N) -> N {
-        let [a, b, c] = [3.0, 2.0, 1.0].map(|join| (q.constant(join) - q).positive());
+        let (a, b, c) = (below(3.0, q), below(2.0, q), below(1.0, q));
         let (a2, b2, c2) = (a * a, b * b, c * c);
         let outer = (q.constant(30.0) * b2).multiply_add(b2, q.constant(-5.0) * a2 * a2);
         (q.constant(-75.0) * c2).multiply_add(c2, outer) / q

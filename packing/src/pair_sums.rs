@@ -54,6 +54,8 @@ impl<const D: usize> WithKernel<D> for PairLoop<'_, D> {
     }
 }
 
+// A closure that does vector arithmetic must be inlined by force, or the vector instructions cannot be inlined into
+// it: so plain loops here, no `from_fn` or `map` over vectors.
 #[inline(always)]
 fn block_sums<S: Simd, K: Kernel<D>, const D: usize>(
     simd: S,
@@ -69,12 +71,13 @@ fn block_sums<S: Simd, K: Kernel<D>, const D: usize>(
         || {
             // Lanes beyond a short block repeat its last particle and are dropped at the end.
             let last = block.len - 1;
-            let x: [f64x8<S>; D] = std::array::from_fn(|k| {
+            let zero = f64x8::splat(simd, 0.0);
+            let mut x = [zero; D];
+            for k in 0..D {
                 let lanes: [f64; LANES] =
                     std::array::from_fn(|lane| slots[block.first_slot + lane.min(last)][k]);
-                lanes.simd_into(simd)
-            });
-            let zero = f64x8::splat(simd, 0.0);
+                x[k] = lanes.simd_into(simd);
+            }
             let reach_squared = f64x8::splat(simd, repulsion.reach() * repulsion.reach());
             let mut gamma = zero;
             let mut others = zero;
@@ -82,10 +85,10 @@ fn block_sums<S: Simd, K: Kernel<D>, const D: usize>(
             out.fill(Sums::ZERO);
             for &candidate in block.candidates {
                 let source = &slots[candidate as usize];
-                let d: [f64x8<S>; D] =
-                    std::array::from_fn(|k| x[k] - f64x8::splat(simd, source[k]));
-                let mut r_squared = d[0] * d[0];
-                for k in 1..D {
+                let mut d = [zero; D];
+                let mut r_squared = zero;
+                for k in 0..D {
+                    d[k] = x[k] - f64x8::splat(simd, source[k]);
                     r_squared = d[k].mul_add(d[k], r_squared);
                 }
                 let weight = f64x8::splat(simd, source[3]);
@@ -100,22 +103,23 @@ fn block_sums<S: Simd, K: Kernel<D>, const D: usize>(
                     others = weight.mul_add(value.0, others);
                 }
                 if r_squared.simd_lt(reach_squared).any_true() {
-                    repel(
-                        repulsion,
-                        is_other,
-                        &d.map(Into::into),
-                        &r_squared.into(),
-                        out,
-                    );
+                    let mut apart = [[0.0; LANES]; D];
+                    for k in 0..D {
+                        apart[k] = d[k].into();
+                    }
+                    repel(repulsion, is_other, &apart, &r_squared.into(), out);
                 }
             }
             let gamma: [f64; LANES] = gamma.into();
             let others: [f64; LANES] = others.into();
-            let gradient: [[f64; LANES]; D] = gradient.map(Into::into);
+            let mut slope = [[0.0; LANES]; D];
+            for k in 0..D {
+                slope[k] = gradient[k].into();
+            }
             for (lane, sums) in out.iter_mut().enumerate() {
                 sums.gamma = gamma[lane];
                 sums.gamma_of_others = others[lane];
-                sums.gradient = std::array::from_fn(|k| gradient[k][lane]);
+                sums.gradient = std::array::from_fn(|k| slope[k][lane]);
             }
         },
     );

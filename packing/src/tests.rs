@@ -282,7 +282,10 @@ fn senseless_problems_are_refused() {
             .pack(&problem, &mut Silent)
             .expect_err("refused");
         assert!(is_expected(&error), "{error}");
-        assert_eq!(problem.estimate().expect_err("refused").to_string(), error.to_string());
+        assert_eq!(
+            problem.estimate().expect_err("refused").to_string(),
+            error.to_string()
+        );
     };
     refused(
         |p| p.spacing = 0.0,

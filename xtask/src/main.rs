@@ -1,2 +1,49 @@
-//! placeholder
-fn main() {}
+//! The project's own tasks: `cargo xtask ci | tidy | reproduce-paper`.
+
+mod ci;
+mod reproduce;
+mod rows;
+mod tidy;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+cargo xtask TASK
+
+  ci                          everything that a change must pass
+  tidy                        house rules: crate graph, file sizes, names, lints
+  reproduce-paper [--quick] [--data DIR] [--write]
+                              the figures of paper 001, published beside ours;
+                              --quick leaves out the long runs,
+                              --data names the folder with bunny.stl (default: data),
+                              --write also writes docs/reproduction.md
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let rest = arguments.get(1..).unwrap_or_default();
+    let result = match arguments.first().map(String::as_str) {
+        Some("ci") => ci::run(),
+        Some("tidy") => tidy::run(&root()),
+        Some("reproduce-paper") => reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s)),
+        Some("help" | "--help" | "-h") => {
+            print!("{USAGE}");
+            Ok(())
+        }
+        other => Err(format!("no task is called {:?}\n\n{USAGE}", other.unwrap_or_default())),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The workspace's folder.
+fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_owned()
+}

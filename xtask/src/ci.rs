@@ -1,0 +1,32 @@
+//! Everything that a change must pass, in the order of what fails soonest.
+
+use std::process::Command;
+use std::time::Instant;
+
+use crate::{reproduce, root, tidy};
+
+/// Runs every check; the first that fails ends it.
+pub(crate) fn run() -> Result<(), String> {
+    tidy::run(&root())?;
+    cargo(&["fmt", "--all", "--check"], &[])?;
+    cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])?;
+    cargo(&["doc", "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")])?;
+    // The README's test command.
+    cargo(&["test", "--workspace"], &[])?;
+    reproduce::run(&reproduce::Settings { quick: true, ..reproduce::Settings::default() })
+}
+
+fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let line = format!("cargo {}", arguments.join(" "));
+    eprintln!("── {line}");
+    let start = Instant::now();
+    let status = Command::new(program)
+        .args(arguments)
+        .envs(environment.iter().copied())
+        .current_dir(root())
+        .status()
+        .map_err(|error| format!("{line} cannot be started: {error}"))?;
+    eprintln!("── {:.0} s", start.elapsed().as_secs_f64());
+    if status.success() { Ok(()) } else { Err(format!("{line} failed")) }
+}
