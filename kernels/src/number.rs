@@ -28,23 +28,23 @@ pub trait Number:
 
 impl Number for f64 {
     #[inline(always)]
-    fn constant(self, c: f64) -> f64 {
+    fn constant(self, c: f64) -> Self {
         c
     }
 
     #[inline(always)]
-    fn sqrt(self) -> f64 {
+    fn sqrt(self) -> Self {
         self.sqrt()
     }
 
     #[inline(always)]
-    fn at_least(self, c: f64) -> f64 {
+    fn at_least(self, c: f64) -> Self {
         // One instruction; `f64::max` also sorts out NaN, which costs two more.
         if self > c { self } else { c }
     }
 
     #[inline(always)]
-    fn multiply_add(self, b: f64, c: f64) -> f64 {
+    fn multiply_add(self, b: Self, c: Self) -> Self {
         self * b + c
     }
 }

@@ -9,11 +9,27 @@ use crate::{reproduce, root, tidy};
 pub(crate) fn run() -> Result<(), String> {
     tidy::run(&root())?;
     cargo(&["fmt", "--all", "--check"], &[])?;
-    cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])?;
-    cargo(&["doc", "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")])?;
+    cargo(
+        &[
+            "clippy",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ],
+        &[],
+    )?;
+    cargo(
+        &["doc", "--workspace", "--no-deps"],
+        &[("RUSTDOCFLAGS", "-D warnings")],
+    )?;
     // The README's test command.
     cargo(&["test", "--workspace"], &[])?;
-    reproduce::run(&reproduce::Settings { quick: true, ..reproduce::Settings::default() })
+    reproduce::run(&reproduce::Settings {
+        quick: true,
+        ..reproduce::Settings::default()
+    })
 }
 
 fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {
@@ -28,5 +44,9 @@ fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String>
         .status()
         .map_err(|error| format!("{line} cannot be started: {error}"))?;
     eprintln!("── {:.0} s", start.elapsed().as_secs_f64());
-    if status.success() { Ok(()) } else { Err(format!("{line} failed")) }
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("{line} failed"))
+    }
 }

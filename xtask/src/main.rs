@@ -26,12 +26,17 @@ fn main() -> ExitCode {
     let result = match arguments.first().map(String::as_str) {
         Some("ci") => ci::run(),
         Some("tidy") => tidy::run(&root()),
-        Some("reproduce-paper") => reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s)),
+        Some("reproduce-paper") => {
+            reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))
+        }
         Some("help" | "--help" | "-h") => {
             print!("{USAGE}");
             Ok(())
         }
-        other => Err(format!("no task is called {:?}\n\n{USAGE}", other.unwrap_or_default())),
+        other => Err(format!(
+            "no task is called {:?}\n\n{USAGE}",
+            other.unwrap_or_default()
+        )),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

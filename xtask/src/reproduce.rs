@@ -34,7 +34,11 @@ impl Settings {
                     let folder = arguments.next().ok_or("--data needs a folder")?;
                     settings.data = Some(folder.into());
                 }
-                other => return Err(format!("reproduce-paper does not know {other}; see cargo xtask help")),
+                other => {
+                    return Err(format!(
+                        "reproduce-paper does not know {other}; see cargo xtask help"
+                    ));
+                }
             }
         }
         Ok(settings)
@@ -59,7 +63,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
                 let value = figure(row.figure, &report);
                 let passes = value <= row.bar && report.converged;
                 if !passes {
-                    missed.push(format!("{} ∆s = {} ε = {:e}", row.scene, row.spacing, row.tolerance));
+                    missed.push(format!(
+                        "{} ∆s = {} ε = {:e}",
+                        row.scene, row.spacing, row.tolerance
+                    ));
                 }
                 line(row, &report, value, passes, seconds)
             }
@@ -71,25 +78,37 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         let path = root().join("docs/reproduction.md");
         let text = format!(
             "# Paper 001, published and ours\n\n\
-             The hybrid method with its defaults, no tuning per shape. Regenerate with\n\
+             The hybrid method with its defaults, no tuning per shape{}. Regenerate with\n\
              `cargo xtask reproduce-paper --data DIR --write`, where DIR holds `bunny.stl`.\n\
-             Densities are dimensionless, times are wall-clock seconds and depend on the machine.\n\n{table}"
+             Densities are dimensionless, times are wall-clock seconds and depend on the machine.\n\n{table}",
+            if settings.quick { " (the quick rows only)" } else { "" }
         );
         fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
     }
-    if missed.is_empty() { Ok(()) } else { Err(format!("missed: {}", missed.join("; "))) }
+    if missed.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("missed: {}", missed.join("; ")))
+    }
 }
 
 /// Packs one row; `None` where its body's file is not there.
 fn run_row(row: &Row, settings: &Settings) -> Result<Option<(Report, f64)>, String> {
     let path = root().join("scenes").join(format!("{}.toml", row.scene));
-    let mut text = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let mut text =
+        fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
     if row.scene == "bunny" {
-        let file = settings.data.clone().unwrap_or_else(|| root().join("data")).join("bunny.stl");
+        let file = settings
+            .data
+            .clone()
+            .unwrap_or_else(|| root().join("data"))
+            .join("bunny.stl");
         if !file.is_file() {
             return Ok(None);
         }
-        let file = file.canonicalize().map_err(|error| format!("{}: {error}", file.display()))?;
+        let file = file
+            .canonicalize()
+            .map_err(|error| format!("{}: {error}", file.display()))?;
         text = text.replace("../data/bunny.stl", &file.display().to_string());
     }
     let mut scene = Scene::parse(&text, &path).map_err(|error| error.to_string())?;
@@ -100,7 +119,8 @@ fn run_row(row: &Row, settings: &Settings) -> Result<Option<(Report, f64)>, Stri
     // The bar is on the error, the published iterations stand beside ours.
     scene.packing.max_iterations = 100_000;
     let start = Instant::now();
-    let outcome = pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
+    let outcome =
+        pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
     Ok(Some((outcome.report, start.elapsed().as_secs_f64())))
 }
 
@@ -108,14 +128,20 @@ fn figure(figure: Figure, report: &Report) -> f64 {
     match figure {
         Figure::TotalVariation => report.density.total_variation,
         Figure::Linf => report.density.linf,
-        Figure::SurfaceDistance => {
-            report.surface.iter().map(|surface| surface.max_distance_over_spacing).fold(0.0, f64::max)
-        }
+        Figure::SurfaceDistance => report
+            .surface
+            .iter()
+            .map(|surface| surface.max_distance_over_spacing)
+            .fold(0.0, f64::max),
     }
 }
 
 fn head(row: &Row) -> String {
-    let scene = if row.enlarged == 1.0 { row.scene.to_owned() } else { format!("{} × {}", row.scene, row.enlarged) };
+    let scene = if row.enlarged == 1.0 {
+        row.scene.to_owned()
+    } else {
+        format!("{} × {}", row.scene, row.enlarged)
+    };
     format!(
         "| {scene} | {} | {:.1} | {:.1e} | {} | {} | {}",
         row.spacing,
@@ -132,7 +158,9 @@ fn line(row: &Row, report: &Report, value: f64, passes: bool, seconds: f64) -> S
     let (count, target) = report
         .surface
         .iter()
-        .fold((0, 0), |(count, target), surface| (count + surface.count, target + surface.target_count));
+        .fold((0, 0), |(count, target), surface| {
+            (count + surface.count, target + surface.target_count)
+        });
     let verdict = if passes { "pass" } else { "**FAIL**" };
     // Writing to a string cannot fail.
     let _ = writeln!(

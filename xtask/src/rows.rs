@@ -58,22 +58,148 @@ const BASE: Row = Row {
 
 /// Every row, in the paper's order.
 pub(crate) const ROWS: [Row; 18] = [
-    Row { scene: "cylinder", h_over_spacing: 1.0, published: "2 %", bar: 0.02, ..BASE },
-    Row { scene: "cylinder", published: "2 %", bar: 0.02, ..BASE },
-    Row { scene: "zigzag", spacing: 0.05, h_over_spacing: 1.0, published: "3 %", bar: 0.03, quick: false, ..BASE },
-    Row { scene: "zigzag", spacing: 0.05, published: "3 %", bar: 0.03, ..BASE },
-    Row { scene: "starfish", spacing: 0.1, published: "2.5 %", bar: 0.025, ..BASE },
-    Row { scene: "starfish", spacing: 0.075, published: "2 %", bar: 0.02, ..BASE },
-    Row { scene: "starfish", spacing: 0.05, published: "3 %", bar: 0.03, ..BASE },
-    Row { scene: "starfish", spacing: 0.1, enlarged: 2.0, published: "2.5 %", bar: 0.025, ..BASE },
-    Row { scene: "starfish", spacing: 0.075, enlarged: 2.0, published: "2 %", bar: 0.02, ..BASE },
-    Row { scene: "starfish", spacing: 0.05, enlarged: 2.0, published: "3 %", bar: 0.03, quick: false, ..BASE },
-    Row { scene: "starfish", spacing: 0.1, h_over_spacing: 1.0, published: "2.5 %", bar: 0.025, quick: false, ..BASE },
-    Row { scene: "naca0015", spacing: 0.02, published: "0.028 in 1191", figure: Figure::Linf, bar: 0.028, ..BASE },
-    Row { scene: "naca0015", spacing: 0.02, tolerance: 5e-5, published: "0.019 in 6291", figure: Figure::Linf, bar: 0.019, ..BASE },
-    Row { scene: "naca0015", spacing: 0.02, tolerance: 2.5e-5, published: "0.011 in 19641", figure: Figure::Linf, bar: 0.011, quick: false, ..BASE },
-    Row { scene: "ellipsoid", published: "very close to 1", figure: Figure::Linf, bar: 0.04, ..BASE },
-    Row { scene: "sphere", published: "–", figure: Figure::Linf, bar: 0.04, quick: false, ..BASE },
-    Row { scene: "bunny", spacing: 0.05, published: "–", figure: Figure::SurfaceDistance, bar: 0.05, quick: false, ..BASE },
-    Row { scene: "bunny", spacing: 0.02, published: "a picture", figure: Figure::SurfaceDistance, bar: 0.05, quick: false, ..BASE },
+    Row {
+        scene: "cylinder",
+        h_over_spacing: 1.0,
+        published: "2 %",
+        bar: 0.02,
+        ..BASE
+    },
+    Row {
+        scene: "cylinder",
+        published: "2 %",
+        bar: 0.02,
+        ..BASE
+    },
+    Row {
+        scene: "zigzag",
+        spacing: 0.05,
+        h_over_spacing: 1.0,
+        published: "3 %",
+        bar: 0.03,
+        quick: false,
+        ..BASE
+    },
+    Row {
+        scene: "zigzag",
+        spacing: 0.05,
+        published: "3 %",
+        bar: 0.03,
+        ..BASE
+    },
+    Row {
+        scene: "starfish",
+        spacing: 0.1,
+        published: "2.5 %",
+        bar: 0.025,
+        ..BASE
+    },
+    Row {
+        scene: "starfish",
+        spacing: 0.075,
+        published: "2 %",
+        bar: 0.02,
+        ..BASE
+    },
+    Row {
+        scene: "starfish",
+        spacing: 0.05,
+        published: "3 %",
+        bar: 0.03,
+        ..BASE
+    },
+    Row {
+        scene: "starfish",
+        spacing: 0.1,
+        enlarged: 2.0,
+        published: "2.5 %",
+        bar: 0.025,
+        ..BASE
+    },
+    Row {
+        scene: "starfish",
+        spacing: 0.075,
+        enlarged: 2.0,
+        published: "2 %",
+        bar: 0.02,
+        ..BASE
+    },
+    Row {
+        scene: "starfish",
+        spacing: 0.05,
+        enlarged: 2.0,
+        published: "3 %",
+        bar: 0.03,
+        quick: false,
+        ..BASE
+    },
+    Row {
+        scene: "starfish",
+        spacing: 0.1,
+        h_over_spacing: 1.0,
+        published: "2.5 %",
+        bar: 0.025,
+        quick: false,
+        ..BASE
+    },
+    Row {
+        scene: "naca0015",
+        spacing: 0.02,
+        published: "0.028 in 1191",
+        figure: Figure::Linf,
+        bar: 0.028,
+        ..BASE
+    },
+    Row {
+        scene: "naca0015",
+        spacing: 0.02,
+        tolerance: 5e-5,
+        published: "0.019 in 6291",
+        figure: Figure::Linf,
+        bar: 0.019,
+        ..BASE
+    },
+    Row {
+        scene: "naca0015",
+        spacing: 0.02,
+        tolerance: 2.5e-5,
+        published: "0.011 in 19641",
+        figure: Figure::Linf,
+        bar: 0.011,
+        quick: false,
+        ..BASE
+    },
+    Row {
+        scene: "ellipsoid",
+        published: "very close to 1",
+        figure: Figure::Linf,
+        bar: 0.04,
+        ..BASE
+    },
+    Row {
+        scene: "sphere",
+        published: "–",
+        figure: Figure::Linf,
+        bar: 0.04,
+        quick: false,
+        ..BASE
+    },
+    Row {
+        scene: "bunny",
+        spacing: 0.05,
+        published: "–",
+        figure: Figure::SurfaceDistance,
+        bar: 0.05,
+        quick: false,
+        ..BASE
+    },
+    Row {
+        scene: "bunny",
+        spacing: 0.02,
+        published: "a picture",
+        figure: Figure::SurfaceDistance,
+        bar: 0.05,
+        quick: false,
+        ..BASE
+    },
 ];

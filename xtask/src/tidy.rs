@@ -10,8 +10,21 @@ const GRAPH: [(&str, &[&str]); 7] = [
     ("geometry", &["neighbors"]),
     ("packing", &["kernels", "neighbors", "geometry"]),
     ("separation", &["geometry", "neighbors"]),
-    ("cli", &["kernels", "neighbors", "geometry", "packing", "separation"]),
-    ("xtask", &["kernels", "neighbors", "geometry", "packing", "separation", "cli"]),
+    (
+        "cli",
+        &["kernels", "neighbors", "geometry", "packing", "separation"],
+    ),
+    (
+        "xtask",
+        &[
+            "kernels",
+            "neighbors",
+            "geometry",
+            "packing",
+            "separation",
+            "cli",
+        ],
+    ),
 ];
 
 /// A file longer than this holds two ideas.
@@ -57,7 +70,11 @@ fn complaints(root: &Path) -> Vec<String> {
         for path in sources(&root.join(name)) {
             match fs::read_to_string(&path) {
                 Ok(text) => {
-                    let shown = path.strip_prefix(root).unwrap_or(&path).display().to_string();
+                    let shown = path
+                        .strip_prefix(root)
+                        .unwrap_or(&path)
+                        .display()
+                        .to_string();
                     check_source(&shown, &text, &mut complaints);
                 }
                 Err(error) => complaints.push(format!("{}: {error}", path.display())),
@@ -82,10 +99,14 @@ fn check_manifest(name: &str, text: &str, allowed: &[&str], complaints: &mut Vec
             other => other.strip_prefix("sphpack-").unwrap_or_default(),
         };
         if !ours.is_empty() && !allowed.contains(&ours) {
-            complaints.push(format!("{name} must not depend on {ours}: see ARCHITECTURE.md"));
+            complaints.push(format!(
+                "{name} must not depend on {ours}: see ARCHITECTURE.md"
+            ));
         }
     }
-    let lints = manifest.get("lints").and_then(|lints| lints.get("workspace"));
+    let lints = manifest
+        .get("lints")
+        .and_then(|lints| lints.get("workspace"));
     if lints.and_then(toml::Value::as_bool) != Some(true) {
         complaints.push(format!("{name}/Cargo.toml lacks lints.workspace = true"));
     }
@@ -94,20 +115,31 @@ fn check_manifest(name: &str, text: &str, allowed: &[&str], complaints: &mut Vec
 fn check_source(path: &str, text: &str, complaints: &mut Vec<String>) {
     let lines = text.lines().count();
     if lines > MOST_LINES {
-        complaints.push(format!("{path} has {lines} lines, more than {MOST_LINES}: split it"));
+        complaints.push(format!(
+            "{path} has {lines} lines, more than {MOST_LINES}: split it"
+        ));
     }
-    let stem = Path::new(path).file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+    let stem = Path::new(path)
+        .file_stem()
+        .and_then(|stem| stem.to_str())
+        .unwrap_or_default();
     if ["utils", "util", "common", "helpers", "misc"].contains(&stem) {
         complaints.push(format!("{path}: name the module for what it holds"));
     }
     if !text.trim_start().starts_with("//!") {
-        complaints.push(format!("{path} does not begin by saying what it holds (//!)"));
+        complaints.push(format!(
+            "{path} does not begin by saying what it holds (//!)"
+        ));
     }
     // Spelt in two parts, so that this file does not find itself.
     for (first, second, cure) in [
         ("FIX", "ME", "file an issue"),
         ("#[ign", "ore]", "mend the test or delete it"),
-        (".par_iter().s", "um::<f64>", "sum over blocks of fixed size"),
+        (
+            ".par_iter().s",
+            "um::<f64>",
+            "sum over blocks of fixed size",
+        ),
     ] {
         if text.contains(&format!("{first}{second}")) {
             complaints.push(format!("{path} has {first}{second}: {cure}"));
@@ -119,7 +151,9 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut open = vec![folder.to_owned()];
     while let Some(folder) = open.pop() {
-        let Ok(entries) = fs::read_dir(&folder) else { continue };
+        let Ok(entries) = fs::read_dir(&folder) else {
+            continue;
+        };
         for path in entries.flatten().map(|entry| entry.path()) {
             if path.is_dir() {
                 open.push(path);
@@ -144,7 +178,12 @@ mod tests {
     #[test]
     fn offences_are_found() {
         let mut found = Vec::new();
-        check_manifest("kernels", "[dependencies]\nsphpack-packing = \"1\"", &[], &mut found);
+        check_manifest(
+            "kernels",
+            "[dependencies]\nsphpack-packing = \"1\"",
+            &[],
+            &mut found,
+        );
         assert_eq!(found.len(), 2, "{found:?}");
         found.clear();
         check_source("a/utils.rs", &"x\n".repeat(501), &mut found);

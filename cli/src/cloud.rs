@@ -1,0 +1,235 @@
+//! Anybody's particles, and how even they are.
+
+use std::path::{Path, PathBuf};
+
+use sphpack_kernels::KernelKind;
+use sphpack_neighbors::{Bounds, Domain, point};
+use sphpack_packing::{DensityQuality, Fields, Kind, Lattice, ResidualQuality};
+
+use crate::Error;
+use crate::files::Columns;
+use crate::plan::available_bytes;
+
+/// Particles from a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cloud {
+    /// The file.
+    pub path: PathBuf,
+    /// 2 or 3.
+    pub dimension: usize,
+    /// Scene units; z is 0 in 2-D.
+    pub position: Vec<[f64; 3]>,
+    /// Volume (area in 2-D).
+    pub volume: Vec<f64>,
+    /// How each may move; free where the file does not say.
+    pub kind: Vec<Kind>,
+    /// Outward unit normals of boundary particles, where the file has them.
+    pub normal: Option<Vec<[f64; 3]>>,
+}
+
+/// The figures of somebody's particles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CloudQuality {
+    /// Γ of the measured particles.
+    pub density: DensityQuality,
+    /// h |∇Γ| of the free ones among them.
+    pub residual: ResidualQuality,
+    /// How many were measured.
+    pub measured: usize,
+    /// How many were not, because they are near the edge of a set without frozen particles.
+    pub left_out: usize,
+}
+
+impl Cloud {
+    /// Reads particles (.csv, .vtu). Where the file has no volumes, each is `spacing`^dimension.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where the file cannot be used.
+    pub fn read(path: &Path, spacing: f64) -> Result<Self, Error> {
+        let columns = Columns::read(path)?;
+        let missing = |name: &str| {
+            Error::input(
+                path,
+                format!("there is no column \"{name}\"; it needs x and y at least"),
+            )
+        };
+        let column = |name: &str| columns.numbers.get(name);
+        let x = column("x").ok_or_else(|| missing("x"))?;
+        let y = column("y").ok_or_else(|| missing("y"))?;
+        let z = column("z").filter(|z| z.iter().any(|&z| z != 0.0));
+        let dimension = if z.is_some() { 3 } else { 2 };
+        let position: Vec<[f64; 3]> = (0..x.len())
+            .map(|i| [x[i], y[i], z.map_or(0.0, |z| z[i])])
+            .collect();
+        if position.is_empty() {
+            return Err(Error::input(
+                path,
+                "there are no particles in it; give a file with some",
+            ));
+        }
+        if let Some(bad) = position
+            .iter()
+            .position(|&p| !point::norm_squared(p).is_finite())
+        {
+            return Err(Error::input(
+                path,
+                format!(
+                    "particle {bad} has a coordinate that is not a finite number of usual size; correct or remove it"
+                ),
+            ));
+        }
+        let volume = match column("volume") {
+            Some(volume) => volume.clone(),
+            None => vec![spacing.powi(dimension as i32); position.len()],
+        };
+        if let Some(bad) = volume.iter().position(|&v| !(v > 0.0 && v.is_finite())) {
+            return Err(Error::input(
+                path,
+                format!(
+                    "particle {bad} has the volume {}; volumes must be positive, finite numbers",
+                    volume[bad]
+                ),
+            ));
+        }
+        let kind = match columns.words.get("kind") {
+            None => vec![Kind::Free; position.len()],
+            Some(words) => words
+                .iter()
+                .map(|word| {
+                    let word = word.trim();
+                    Kind::ALL
+                        .into_iter()
+                        .find(|kind| kind.name() == word)
+                        .ok_or_else(|| {
+                            let known = Kind::ALL.map(Kind::name);
+                            Error::input(
+                                path,
+                                format!(
+                                    "no kind of particles is called \"{word}\"; {}",
+                                    crate::scene::advice(word, &known)
+                                ),
+                            )
+                        })
+                })
+                .collect::<Result<_, _>>()?,
+        };
+        let normal = match (column("nx"), column("ny"), column("nz")) {
+            (Some(nx), Some(ny), nz) => Some(
+                (0..nx.len())
+                    .map(|i| [nx[i], ny[i], nz.map_or(0.0, |nz| nz[i])])
+                    .collect(),
+            ),
+            _ => None,
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            dimension,
+            position,
+            volume,
+            kind,
+            normal,
+        })
+    }
+
+    /// How many are frozen.
+    pub fn frozen_count(&self) -> usize {
+        self.kind
+            .iter()
+            .filter(|&&kind| kind == Kind::Frozen)
+            .count()
+    }
+
+    /// Γ and h |∇Γ| of all but the frozen particles; where none is frozen, of those farther than a support radius from
+    /// the edge of the box around them all.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where nothing is left to measure, or the spacing cannot be that of the particles.
+    pub fn measure(
+        &self,
+        spacing: f64,
+        kernel: KernelKind,
+        h_over_spacing: f64,
+    ) -> Result<CloudQuality, Error> {
+        match self.dimension {
+            2 => self.measure_in::<2>(spacing, kernel, h_over_spacing),
+            _ => self.measure_in::<3>(spacing, kernel, h_over_spacing),
+        }
+    }
+
+    fn measure_in<const D: usize>(
+        &self,
+        spacing: f64,
+        kernel: KernelKind,
+        h_over_spacing: f64,
+    ) -> Result<CloudQuality, Error> {
+        let cut = |p: &[f64; 3]| -> [f64; D] { std::array::from_fn(|k| p[k]) };
+        let positions: Vec<[f64; D]> = self.position.iter().map(cut).collect();
+        let bounds = Bounds::of(&positions);
+        let h = h_over_spacing * spacing;
+        let support = kernel.support_over_h() * h;
+        self.check_spacing(&bounds, support, spacing)?;
+        let has_frozen = self.frozen_count() > 0;
+        let inner = bounds.grown(-support);
+        let is_measured =
+            |i: usize| self.kind[i] != Kind::Frozen && (has_frozen || inner.contains(positions[i]));
+        let measured: Vec<usize> = (0..positions.len()).filter(|&i| is_measured(i)).collect();
+        if measured.is_empty() {
+            return Err(Error::input(
+                &self.path,
+                format!(
+                    "every particle is within a support radius ({support:.3e}) of the edge, where nothing can be measured; add rows of kind frozen around them, or give a smaller --spacing"
+                ),
+            ));
+        }
+        let domain = Domain {
+            bounds,
+            periodic: [false; D],
+        };
+        let fields = Fields::measure(&domain, &positions, &self.volume, is_measured, kernel, h);
+        let gamma: Vec<f64> = measured.iter().map(|&i| fields.gamma[i]).collect();
+        let free: Vec<f64> = measured
+            .iter()
+            .filter(|&&i| self.kind[i] == Kind::Free)
+            .map(|&i| fields.residual(i))
+            .collect();
+        let tangential = self.normal.iter().flat_map(|normals| {
+            measured
+                .iter()
+                .filter(|&&i| self.kind[i] == Kind::Boundary)
+                .map(|&i| h * point::norm(point::reject(fields.gradient[i], cut(&normals[i]))))
+        });
+        let lattice = Lattice::auto(D).gamma(kernel, h_over_spacing);
+        Ok(CloudQuality {
+            density: DensityQuality::of(&gamma, lattice),
+            residual: ResidualQuality::of(&free, tangential.fold(0.0, f64::max)),
+            measured: measured.len(),
+            left_out: positions.len() - self.frozen_count() - measured.len(),
+        })
+    }
+
+    /// Refuses a spacing so large that every particle would be everybody's neighbour, beyond any memory.
+    fn check_spacing<const D: usize>(
+        &self,
+        bounds: &Bounds<D>,
+        support: f64,
+        spacing: f64,
+    ) -> Result<(), Error> {
+        let number = self.position.len() as f64;
+        let share: f64 = bounds
+            .size()
+            .into_iter()
+            .map(|edge| (2.0 * support / edge.max(f64::MIN_POSITIVE)).min(1.0))
+            .product();
+        let bytes = number * (number * share).max(1.0) * 4.0;
+        if bytes <= available_bytes() {
+            return Ok(());
+        }
+        Err(Error::input(
+            &self.path,
+            format!(
+                "{number} particles at --spacing {spacing} would have about {:.0} neighbours each, more than fit into memory; is the spacing right?",
+                number * share
+            ),
+        ))
+    }
+}

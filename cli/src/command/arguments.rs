@@ -1,0 +1,146 @@
+//! What can be asked for on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Packs bodies and the fluid around them into evenly spread SPH particles.
+#[derive(Debug, Parser)]
+#[command(
+    name = "sphpack",
+    version,
+    about,
+    after_help = "\
+Examples:
+  sphpack init cylinder.toml                     a commented scene to start from
+  sphpack pack cylinder.toml                     writes cylinder.vtu
+  sphpack pack body.stl --spacing 0.02           a body, without a scene
+  sphpack quality particles.csv --spacing 0.1    how even are anybody's particles?
+
+Exit status: 0 done; 2 bad input; 3 not converged (files are written); 130 interrupted (files are written); 1 anything else."
+)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Pack a scene, or a body: geometry in, particles out
+    Pack(PackArguments),
+    /// Measure how even anybody's particles are
+    Quality(QualityArguments),
+    /// Write a commented scene with every key
+    Init(InitArguments),
+    /// List what scenes can name
+    List {
+        /// Which list
+        what: What,
+    },
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  sphpack pack wing.toml                                       writes wing.vtu
+  sphpack pack wing.toml -o wing.csv -o wing.vtu --picture wing.svg --report wing.json
+  sphpack pack bunny.stl --scale 10 --spacing 0.02             a mesh: 3-D
+  sphpack pack outline.csv --spacing 0.05 --margin 0.5         rows of x,y: 2-D
+  sphpack pack wing.toml --dry-run                             how many particles, how much memory and time
+
+Progress goes to standard error, the closing summary to standard output. Ctrl-C stops packing and writes what there is; a second Ctrl-C ends at once.")]
+pub(super) struct PackArguments {
+    /// The scene (.toml), or a body: an STL mesh or a CSV outline
+    pub(super) input: PathBuf,
+    /// Write particles here (.vtu, .csv); may be repeated [default: NAME.vtu in the working directory]
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Vec<PathBuf>,
+    /// Write figures here (JSON)
+    #[arg(long, value_name = "FILE")]
+    pub(super) report: Option<PathBuf>,
+    /// Draw the particles (.png, .svg; 3-D .png)
+    #[arg(long, value_name = "FILE")]
+    pub(super) picture: Option<PathBuf>,
+    /// Replace files that exist
+    #[arg(long)]
+    pub(super) force: bool,
+    /// Particle spacing (needed for a body, part of a scene)
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    pub(super) spacing: Option<f64>,
+    /// From the body to the sides of the box [default: 8 spacings]
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    pub(super) margin: Option<f64>,
+    /// Factor on the body's lengths [default: 1]
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    pub(super) scale: Option<f64>,
+    /// The method (`sphpack list methods`), instead of the scene's
+    #[arg(long, value_name = "NAME")]
+    pub(super) method: Option<String>,
+    /// The seed of random numbers, instead of the scene's
+    #[arg(long, value_name = "NUMBER")]
+    pub(super) seed: Option<u64>,
+    /// Threads [default: one for each core]
+    #[arg(long, value_name = "NUMBER")]
+    pub(super) threads: Option<usize>,
+    /// Say how many particles and how much memory and time it would take; write nothing
+    #[arg(long)]
+    pub(super) dry_run: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Particles: a CSV file with a header x,y[,z] and optionally volume and kind, or a VTU file. Without volumes, spacing^dimension is taken. Rows whose kind is \"frozen\" support their neighbours and are not measured themselves; where no row is frozen, particles within a support radius of the edge of their bounding box are left out of the figures.
+
+Examples:
+  sphpack quality particles.csv --spacing 0.1
+  sphpack quality particles.vtu --spacing 0.1 --kernel wendland-c2 --h-over-spacing 1.3 --json")]
+pub(super) struct QualityArguments {
+    /// The particles (.csv, .vtu)
+    pub(super) particles: PathBuf,
+    /// Particle spacing, the root of a particle's volume
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    pub(super) spacing: f64,
+    /// The kernel that measures
+    #[arg(long, value_name = "NAME", default_value = "quintic")]
+    pub(super) kernel: String,
+    /// Its smoothing length over the spacing
+    #[arg(
+        long,
+        value_name = "RATIO",
+        default_value_t = 1.2,
+        allow_negative_numbers = true
+    )]
+    pub(super) h_over_spacing: f64,
+    /// Print JSON
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  sphpack init                 prints the scene
+  sphpack init cylinder.toml   writes it")]
+pub(super) struct InitArguments {
+    /// Where to write it [default: standard output]
+    pub(super) file: Option<PathBuf>,
+    /// Replace the file if it exists
+    #[arg(long)]
+    pub(super) force: bool,
+}
+
+/// What can be listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum What {
+    /// How particles are settled
+    Methods,
+    /// Smoothing kernels
+    Kernels,
+    /// Starting lattices
+    Lattices,
+    /// Shapes of bodies
+    Shapes,
+}

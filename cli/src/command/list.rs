@@ -1,0 +1,66 @@
+//! `sphpack list`.
+
+use std::fmt::Write as _;
+
+use sphpack_kernels::KernelKind;
+use sphpack_packing::Lattice;
+
+use super::arguments::What;
+use super::say;
+use crate::Error;
+use crate::error::DONE;
+use crate::scene::{METHODS, SHAPES};
+
+pub(super) fn run(what: What) -> Result<u8, Error> {
+    let mut text = String::new();
+    match what {
+        What::Methods => {
+            for info in METHODS {
+                let missing = if info.is_available {
+                    ""
+                } else {
+                    " (not in this version yet)"
+                };
+                let _ = writeln!(text, "{:12} {}{missing}", info.name, info.summary);
+            }
+        }
+        What::Kernels => {
+            for kernel in KernelKind::ALL {
+                let default = if kernel == KernelKind::default() {
+                    " (the default)"
+                } else {
+                    ""
+                };
+                let _ = writeln!(
+                    text,
+                    "{:12} support radius {} h{default}",
+                    kernel.name(),
+                    kernel.support_over_h()
+                );
+            }
+        }
+        What::Lattices => {
+            let _ = writeln!(
+                text,
+                "{:12} {} in 2-D, {} in 3-D (the default)",
+                "auto",
+                Lattice::auto(2),
+                Lattice::auto(3)
+            );
+            for lattice in Lattice::ALL {
+                let _ = writeln!(text, "{:12} {}-D", lattice.name(), lattice.dimension());
+            }
+        }
+        What::Shapes => {
+            for shape in SHAPES {
+                let _ = writeln!(
+                    text,
+                    "{:10} {:9} shape = {}",
+                    shape.name, shape.dimensions, shape.example
+                );
+            }
+        }
+    }
+    say(&text);
+    Ok(DONE)
+}

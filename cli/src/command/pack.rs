@@ -1,0 +1,273 @@
+//! `sphpack pack`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use sphpack_packing::{Kind, StopReason};
+
+use super::arguments::PackArguments;
+use super::progress::{Watcher, duration};
+use super::{interrupt, outputs, say, summary};
+use crate::Error;
+use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};
+use crate::files::{ParticleFormat, WholeFiles};
+use crate::picture::{PictureFormat, Subject, draw};
+use crate::plan::{dimension, plan};
+use crate::report::peak_memory_bytes;
+use crate::run::{Options, Outcome, run as pack};
+use crate::scene::{METHODS, Method, Scene, advice};
+
+/// The margin around a body without a scene, in ∆s.
+const MARGIN_OVER_SPACING: f64 = 8.0;
+
+/// The most threads that make sense.
+const MAX_THREADS: usize = 1024;
+
+/// Evaluations that the time estimate of a dry run reckons with.
+const TYPICAL_EVALUATIONS: f64 = 1500.0;
+
+pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
+    let begin = Instant::now();
+    let scene = scene(arguments)?;
+    let dimension = dimension(&scene)?;
+    let files = Files::new(arguments, &scene, dimension)?;
+    threads(arguments.threads)?;
+    if arguments.dry_run {
+        return dry_run(&scene);
+    }
+    interrupt::watch(arguments.quiet)?;
+    let mut watcher = Watcher::new(arguments.quiet);
+    let outcome = pack(&scene, &Options::default(), &mut watcher);
+    watcher.end();
+    let mut outcome = outcome?;
+    let written = files.write(&scene, &mut outcome, arguments.force, begin)?;
+    if !arguments.quiet {
+        say(&summary::of(&outcome, &written));
+    }
+    Ok(match stop_reason(&outcome) {
+        StopReason::Converged => DONE,
+        StopReason::Interrupted => INTERRUPTED,
+        StopReason::IterationLimit | StopReason::Stagnated => NOT_CONVERGED,
+    })
+}
+
+fn stop_reason(outcome: &Outcome) -> StopReason {
+    match &outcome.packing {
+        crate::Packing::Plane(solution) => solution.packed.stop_reason,
+        crate::Packing::Space(solution) => solution.packed.stop_reason,
+    }
+}
+
+/// The scene asked for: a file, or a body with a few words.
+fn scene(arguments: &PackArguments) -> Result<Scene, Error> {
+    let input = &arguments.input;
+    let is_scene = input
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let mut scene = if is_scene {
+        for (name, is_given, key) in [
+            ("--spacing", arguments.spacing.is_some(), "spacing"),
+            ("--margin", arguments.margin.is_some(), "domain.margin"),
+            ("--scale", arguments.scale.is_some(), "scale"),
+        ] {
+            if is_given {
+                return Err(Error::Usage(format!(
+                    "{name} is for a body without a scene; {} is a scene, set {key} in it",
+                    input.display()
+                )));
+            }
+        }
+        Scene::read(input)?
+    } else {
+        // A missing file is a nearer fault than a missing spacing.
+        crate::BodyFile::detect(input)?;
+        let Some(spacing) = arguments.spacing else {
+            return Err(Error::Usage(format!(
+                "{} is a body; say how fine to pack it: --spacing LENGTH",
+                input.display()
+            )));
+        };
+        positive("--spacing", spacing)?;
+        let margin = arguments.margin.unwrap_or(MARGIN_OVER_SPACING * spacing);
+        positive("--margin", margin)?;
+        let mut scene = Scene::of_body(input, spacing, margin);
+        if let Some(scale) = arguments.scale {
+            positive("--scale", scale)?;
+            scene.body[0].scale = scale;
+        }
+        scene
+    };
+    if let Some(name) = &arguments.method {
+        scene.packing.method = Method::from_name(name).ok_or_else(|| {
+            let known = METHODS.map(|info| info.name);
+            Error::Usage(format!(
+                "--method: no method is called \"{name}\"; {}",
+                advice(name, &known)
+            ))
+        })?;
+    }
+    if let Some(seed) = arguments.seed {
+        scene.packing.seed = seed;
+    }
+    Ok(scene)
+}
+
+fn positive(name: &str, value: f64) -> Result<(), Error> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Usage(format!(
+        "{name} is {value}; it must be a positive, finite number"
+    )))
+}
+
+fn threads(number: Option<usize>) -> Result<(), Error> {
+    let Some(number) = number else {
+        return Ok(());
+    };
+    if !(1..=MAX_THREADS).contains(&number) {
+        return Err(Error::Usage(format!(
+            "--threads is {number}; it must be from 1 to {MAX_THREADS}"
+        )));
+    }
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(number)
+        .build_global()
+        .map_err(|e| Error::System(format!("{number} threads cannot be started: {e}")))
+}
+
+fn dry_run(scene: &Scene) -> Result<u8, Error> {
+    let plan = plan(scene, None)?;
+    let estimate = plan.estimate;
+    let gibibytes = |bytes: f64| bytes / 1_073_741_824.0;
+    let seconds =
+        estimate.seconds_per_evaluation * TYPICAL_EVALUATIONS / rayon::current_num_threads() as f64;
+    say(&format!(
+        "  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {:.2} GiB of {:.1} GiB that are free\n  time       about {} for {TYPICAL_EVALUATIONS} evaluations on {} threads, to a factor of two\nnothing was written (--dry-run)\n",
+        crate::picture::grouped(estimate.particles as usize),
+        plan.dimension,
+        crate::picture::grouped(estimate.frozen as usize),
+        estimate.neighbors,
+        gibibytes(estimate.memory_bytes),
+        gibibytes(plan.allowed_bytes),
+        duration(seconds),
+        rayon::current_num_threads(),
+    ));
+    Ok(DONE)
+}
+
+/// The files that will be written.
+struct Files {
+    particles: Vec<(PathBuf, ParticleFormat)>,
+    picture: Option<(PathBuf, PictureFormat)>,
+    report: Option<PathBuf>,
+}
+
+impl Files {
+    /// What was asked for, if it can be written.
+    fn new(arguments: &PackArguments, scene: &Scene, dimension: usize) -> Result<Self, Error> {
+        let mut names = arguments.output.clone();
+        if names.is_empty() {
+            names.push(PathBuf::from(format!("{}.vtu", scene.name)));
+        }
+        let particles = names
+            .into_iter()
+            .map(|path| ParticleFormat::of(&path).map(|format| (path, format)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let picture = match &arguments.picture {
+            Some(path) => Some((path.clone(), PictureFormat::of(path, Some(dimension))?)),
+            None => None,
+        };
+        let report = arguments.report.clone();
+        if let Some(path) = &report {
+            let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+            if ending.as_deref() != Some("json") {
+                return Err(Error::input(path, "the report is JSON; name it .json"));
+            }
+        }
+        let files = Self {
+            particles,
+            picture,
+            report,
+        };
+        if !arguments.dry_run {
+            let mut inputs = vec![arguments.input.clone()];
+            inputs.extend(
+                scene
+                    .body
+                    .iter()
+                    .filter_map(|body| body.shape.file())
+                    .map(|file| scene.resolve(file)),
+            );
+            outputs::check(&files.paths(), &inputs, arguments.force)?;
+        }
+        Ok(files)
+    }
+
+    fn paths(&self) -> Vec<&PathBuf> {
+        let particles = self.particles.iter().map(|(path, _)| path);
+        let picture = self.picture.iter().map(|(path, _)| path);
+        particles.chain(picture).chain(&self.report).collect()
+    }
+
+    /// Writes them all, and says which and with how many particles.
+    fn write(
+        &self,
+        scene: &Scene,
+        outcome: &mut Outcome,
+        may_replace: bool,
+        begin: Instant,
+    ) -> Result<Vec<String>, Error> {
+        let writing = Instant::now();
+        let mut files = WholeFiles::new(may_replace);
+        let shown = |path: &Path| path.display().to_string();
+        let mut written = Vec::new();
+        let rows = outcome
+            .table
+            .filtered(|i| scene.includes(outcome.table.kind[i]));
+        let frozen = rows
+            .kind
+            .iter()
+            .filter(|&&kind| kind == Kind::Frozen)
+            .count();
+        for (path, format) in &self.particles {
+            files.write(path, |to| format.write(&rows, to))?;
+            written.push(format!(
+                "{} ({} particles and {} frozen ones)",
+                shown(path),
+                crate::picture::grouped(rows.len() - frozen),
+                crate::picture::grouped(frozen)
+            ));
+        }
+        if let Some((path, format)) = &self.picture {
+            let report = &outcome.report;
+            let corner = |values: &Option<Vec<f64>>| {
+                let values = values.as_deref().unwrap_or(&[]);
+                std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+            };
+            let subject = Subject {
+                name: &scene.name,
+                table: &outcome.table,
+                loops: &outcome.loops,
+                domain: [
+                    corner(&report.scene.domain.min),
+                    corner(&report.scene.domain.max),
+                ],
+                spacing: report.spacing,
+                is_unfinished: !report.converged,
+            };
+            files.write(path, |to| draw(&subject, *format, to))?;
+            written.push(shown(path));
+        }
+        let report = &mut outcome.report;
+        report.seconds.output = writing.elapsed().as_secs_f64();
+        report.seconds.total = begin.elapsed().as_secs_f64();
+        report.peak_memory_bytes = peak_memory_bytes();
+        if let Some(path) = &self.report {
+            files.write(path, |to| to.write_all(report.to_json().as_bytes()))?;
+            written.push(shown(path));
+        }
+        files.finish()?;
+        Ok(written)
+    }
+}

@@ -1,0 +1,160 @@
+//! What a person sees while a packing runs: one line that is redrawn on a terminal, now and then a line elsewhere.
+
+use std::io::{IsTerminal, Write};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use sphpack_packing::{Observer, Phase, Progress};
+
+use super::interrupt;
+use crate::picture::grouped;
+
+/// The pace of the last so many evaluations, or twice as many, is taken for that of those to come.
+const ANCHOR_EVALUATIONS: usize = 200;
+
+/// How progress is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Style {
+    Silent,
+    /// One line, drawn anew.
+    Redrawn,
+    /// A line at every phase and then every few seconds.
+    Plain,
+}
+
+/// Watches a packing for a person, and for Ctrl-C.
+#[derive(Debug)]
+pub(super) struct Watcher {
+    style: Style,
+    shown: Option<(Phase, Instant)>,
+    /// Phase, evaluation and criterion some time ago and more lately, for a guess of the end.
+    anchors: [Option<(Phase, usize, f64)>; 2],
+}
+
+impl Watcher {
+    /// Nothing is shown where `is_quiet`.
+    pub(super) fn new(is_quiet: bool) -> Self {
+        let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+        Self {
+            style: match (is_quiet, std::io::stderr().is_terminal() && !is_dumb) {
+                (true, _) => Style::Silent,
+                (false, true) => Style::Redrawn,
+                (false, false) => Style::Plain,
+            },
+            shown: None,
+            anchors: [None; 2],
+        }
+    }
+
+    /// Clears the redrawn line.
+    pub(super) fn end(&mut self) {
+        if self.style == Style::Redrawn && self.shown.is_some() {
+            let _ = write!(std::io::stderr(), "\r\x1b[K");
+        }
+    }
+
+    fn show(&mut self, progress: &Progress) {
+        let wait = match self.style {
+            Style::Silent => return,
+            Style::Redrawn => Duration::from_millis(100),
+            Style::Plain => Duration::from_secs(2),
+        };
+        let is_due = self
+            .shown
+            .is_none_or(|(phase, when)| phase != progress.phase || when.elapsed() >= wait);
+        if !is_due {
+            return;
+        }
+        self.shown = Some((progress.phase, Instant::now()));
+        let line = self.line(progress);
+        let mut to = std::io::stderr();
+        let _ = match self.style {
+            Style::Redrawn => write!(to, "\r  {line}\x1b[K").and_then(|()| to.flush()),
+            _ => writeln!(to, "  {line}"),
+        };
+    }
+
+    fn line(&self, progress: &Progress) -> String {
+        let name = progress.phase.name();
+        if progress.evaluation == 0 {
+            return format!("{name:10} …");
+        }
+        let rate = progress.evaluation as f64 / progress.seconds.max(1e-9);
+        let left = self
+            .evaluations_left(progress)
+            .map_or_else(String::new, |n| {
+                format!(", about {} left", duration(n / rate))
+            });
+        format!(
+            "{name:10} evaluation {}, {} (until {:.0e}), {} of {} on the surface, {:.0}/s{left}",
+            grouped(progress.evaluation),
+            if progress.criterion.is_finite() {
+                format!("{:.1e}", progress.criterion)
+            } else {
+                "–".to_owned()
+            },
+            progress.tolerance,
+            grouped(progress.on_surface),
+            grouped(progress.target),
+            rate,
+        )
+    }
+
+    /// How many evaluations there are to come if the criterion goes on falling as it did lately.
+    fn evaluations_left(&self, progress: &Progress) -> Option<f64> {
+        let limit = progress.max_evaluations.saturating_sub(progress.evaluation) as f64;
+        let (_, evaluation, criterion) =
+            self.anchors[0].filter(|start| start.0 == progress.phase)?;
+        let fall = (criterion / progress.criterion).ln();
+        let to_go = (progress.criterion / progress.tolerance).ln();
+        let done = progress.evaluation.saturating_sub(evaluation) as f64;
+        (progress.phase == Phase::Settling && fall > 0.1 && to_go.is_finite())
+            .then(|| (done * to_go.max(0.0) / fall).min(limit))
+    }
+}
+
+impl Observer for Watcher {
+    fn progress(&mut self, progress: &Progress) -> ControlFlow<()> {
+        let here = (progress.phase, progress.evaluation, progress.criterion);
+        if progress.criterion.is_finite() {
+            match self.anchors {
+                [_, Some((phase, evaluation, _))] if phase == progress.phase => {
+                    if progress.evaluation >= evaluation + ANCHOR_EVALUATIONS {
+                        self.anchors = [self.anchors[1], Some(here)];
+                    }
+                }
+                _ => self.anchors = [Some(here); 2],
+            }
+        }
+        self.show(progress);
+        if interrupt::is_asked() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+/// A time for people.
+pub(super) fn duration(seconds: f64) -> String {
+    if seconds < 0.9995 {
+        format!("{:.0} ms", 1000.0 * seconds)
+    } else if seconds < 99.95 {
+        format!("{seconds:.1} s")
+    } else if seconds < 5400.0 {
+        format!("{:.0} min", seconds / 60.0)
+    } else {
+        format!("{:.1} h", seconds / 3600.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_read_well() {
+        let read = [0.0414, 1.04, 12.0, 240.0, 9000.0].map(duration);
+        assert_eq!(read, ["41 ms", "1.0 s", "12.0 s", "4 min", "2.5 h"]);
+    }
+}

@@ -1,0 +1,111 @@
+//! `sphpack quality`.
+
+use serde::Serialize;
+
+use super::arguments::QualityArguments;
+use super::say;
+use crate::Error;
+use crate::cloud::{Cloud, CloudQuality};
+use crate::error::DONE;
+use crate::picture::grouped;
+use crate::report::{Density, Residual};
+use crate::scene::kernel_by_name;
+
+/// What `--json` prints.
+#[derive(Debug, Serialize)]
+struct Answer<'a> {
+    dimension: usize,
+    spacing: f64,
+    kernel: &'a str,
+    h_over_spacing: f64,
+    particles: Numbers,
+    density: Density,
+    residual: Residual,
+}
+
+#[derive(Debug, Serialize)]
+struct Numbers {
+    total: usize,
+    frozen: usize,
+    measured: usize,
+    left_out_near_edge: usize,
+}
+
+pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
+    for (name, value) in [
+        ("--spacing", arguments.spacing),
+        ("--h-over-spacing", arguments.h_over_spacing),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(Error::Usage(format!(
+                "{name} is {value}; it must be a positive, finite number"
+            )));
+        }
+    }
+    let kernel = kernel_by_name(&arguments.kernel)
+        .map_err(|message| Error::Usage(format!("--kernel: {message}")))?;
+    let cloud = Cloud::read(&arguments.particles, arguments.spacing)?;
+    let measured = cloud.measure(arguments.spacing, kernel, arguments.h_over_spacing)?;
+    let CloudQuality {
+        density,
+        residual,
+        measured,
+        left_out,
+    } = measured;
+    let answer = Answer {
+        dimension: cloud.dimension,
+        spacing: arguments.spacing,
+        kernel: kernel.name(),
+        h_over_spacing: arguments.h_over_spacing,
+        particles: Numbers {
+            total: cloud.position.len(),
+            frozen: cloud.frozen_count(),
+            measured,
+            left_out_near_edge: left_out,
+        },
+        density: density.into(),
+        residual: residual.into(),
+    };
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&answer)
+            .map_err(|e| Error::System(format!("the figures cannot be written as JSON: {e}")))?;
+        say(&(text + "\n"));
+    } else {
+        say(&words(&answer));
+    }
+    Ok(DONE)
+}
+
+fn words(answer: &Answer<'_>) -> String {
+    let Answer {
+        particles,
+        density,
+        residual,
+        ..
+    } = answer;
+    let left_out = if particles.left_out_near_edge > 0 {
+        format!(
+            "\n             {} within a support radius of the box's edge are left out (no row is frozen)",
+            grouped(particles.left_out_near_edge)
+        )
+    } else {
+        String::new()
+    };
+    format!(
+        "  particles  {} in {}-D, {} frozen, {} measured{left_out}\n  kernel     {}, h/∆s = {}\n  density    Γ from {:.5} to {:.5}, max |Γ − 1| = {:.3} %, RMS {:.3} % (perfect lattice: {:.5})\n  residual   h |Σ V ∇W| at most {:.2e}, RMS {:.2e}, mean {:.2e}\n",
+        grouped(particles.total),
+        answer.dimension,
+        grouped(particles.frozen),
+        grouped(particles.measured),
+        answer.kernel,
+        answer.h_over_spacing,
+        density.min,
+        density.max,
+        100.0 * density.linf,
+        100.0 * density.rms,
+        density.lattice,
+        residual.max,
+        residual.rms,
+        residual.mean,
+    )
+}

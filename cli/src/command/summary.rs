@@ -1,0 +1,162 @@
+//! The closing words of a packing.
+
+use std::fmt::Write as _;
+
+use sphpack_packing::Problem;
+
+use super::progress::duration;
+use crate::picture::grouped;
+use crate::report::Report;
+use crate::run::{Outcome, Packing};
+
+/// A line for each stage.
+pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
+    let report = &outcome.report;
+    let mut text = String::new();
+    let bodies = match &outcome.packing {
+        Packing::Plane(solution) => bodies(&solution.problem),
+        Packing::Space(solution) => bodies(&solution.problem),
+    };
+    for (number, body) in bodies.iter().enumerate() {
+        let time = (number == 0).then(|| duration(report.seconds.geometry));
+        line(
+            &mut text,
+            if number == 0 { "geometry" } else { "" },
+            body,
+            time,
+        );
+    }
+    let counts = &report.particles;
+    line(
+        &mut text,
+        "seeding",
+        &format!(
+            "{} particles, and {} frozen ones around them",
+            grouped(counts.total - counts.frozen),
+            grouped(counts.frozen)
+        ),
+        Some(duration(report.seconds.seeding)),
+    );
+    line(
+        &mut text,
+        "settling",
+        &format!(
+            "{} evaluations, residual {:.1e}",
+            grouped(report.force_evaluations),
+            report.residual.max
+        ),
+        Some(duration(
+            report.seconds.neighbors + report.seconds.forces + report.seconds.projection,
+        )),
+    );
+    let on_surface: usize = report.surface.iter().map(|surface| surface.count).sum();
+    let target: usize = report
+        .surface
+        .iter()
+        .map(|surface| surface.target_count)
+        .sum();
+    line(
+        &mut text,
+        "",
+        &format!(
+            "{} on the surface ({} fit), {} solid, {} fluid",
+            grouped(on_surface),
+            grouped(target),
+            grouped(counts.solid),
+            grouped(counts.fluid)
+        ),
+        None,
+    );
+    line(&mut text, "packed", &packed(report), None);
+    if let Some(words) = unfinished(report) {
+        line(&mut text, "unfinished", &words, None);
+    }
+    line(
+        &mut text,
+        "wrote",
+        &written.join(", "),
+        Some(duration(report.seconds.output)),
+    );
+    text
+}
+
+fn line(text: &mut String, stage: &str, words: &str, time: Option<String>) {
+    let _ = match time {
+        Some(time) => writeln!(text, "  {stage:10} {words:66} {time:>8}"),
+        None => writeln!(text, "  {stage:10} {words}"),
+    };
+}
+
+fn bodies<const D: usize>(problem: &Problem<D>) -> Vec<String> {
+    let (measure, volume) = if D == 2 {
+        ("perimeter", "area")
+    } else {
+        ("surface", "volume")
+    };
+    problem
+        .bodies
+        .iter()
+        .map(|body| {
+            let corners = match body.surface.features().corners.len() {
+                _ if D == 3 => String::new(),
+                0 => String::new(),
+                1 => ", 1 corner".to_owned(),
+                n => format!(", {} corners", grouped(n)),
+            };
+            format!(
+                "{}: {measure} {}, {volume} {}{corners}",
+                body.name,
+                short(body.surface.measure()),
+                short(body.surface.volume())
+            )
+        })
+        .collect()
+}
+
+/// A number with three digits or so.
+fn short(value: f64) -> String {
+    if !(1e-3..1e5).contains(&value) {
+        return format!("{value:.2e}");
+    }
+    let digits = (2.0 - value.log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.digits$}")
+}
+
+fn packed(report: &Report) -> String {
+    let density = &report.density;
+    let mut words = format!("density {:.4} … {:.4}", density.min, density.max);
+    let farthest = report
+        .surface
+        .iter()
+        .map(|surface| surface.max_distance_over_spacing)
+        .fold(0.0, f64::max);
+    if report.surface.iter().any(|surface| surface.count > 0) {
+        let _ = match report.surface.as_slice() {
+            [one] => write!(
+                words,
+                ", every surface particle within {farthest:.0e} ∆s of its place on {}",
+                one.body
+            ),
+            _ => write!(
+                words,
+                ", every surface particle within {farthest:.0e} ∆s of its surface"
+            ),
+        };
+    }
+    words
+}
+
+fn unfinished(report: &Report) -> Option<String> {
+    match report.stop_reason {
+        "converged" => None,
+        "interrupted" => Some("stopped by Ctrl-C; the files hold what there was".to_owned()),
+        "iteration-limit" => Some(format!(
+            "not converged in {} iterations; raise packing.max_iterations, or packing.velocity_tolerance",
+            grouped(report.iterations)
+        )),
+        reason => Some(format!(
+            "not converged ({reason}) after {} iterations; try another packing.h_over_spacing or lattice",
+            grouped(report.iterations)
+        )),
+    }
+}

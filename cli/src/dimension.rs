@@ -1,0 +1,190 @@
+//! From a scene's words to surfaces: the one place where two and three dimensions are told apart.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+use std::sync::Arc;
+
+use sphpack_geometry::{
+    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed, Similarity, Surface,
+    Torus,
+};
+
+use crate::scene::{BodySpec, Shape};
+
+/// A body's surface, and its outline for pictures.
+pub(crate) struct Built<const D: usize> {
+    /// The true surface, placed.
+    pub(crate) surface: Arc<dyn Surface<D>>,
+    /// In 2-D, the closed loops to draw.
+    pub(crate) loops: Vec<Vec<[f64; 2]>>,
+}
+
+/// The plane or space.
+pub(crate) struct Space<const D: usize>;
+
+/// What differs between the plane and space; [`Space<2>`] and [`Space<3>`] only.
+pub(crate) trait Dimension<const D: usize> {
+    /// The body's scale, rotation and translation.
+    fn place(body: &BodySpec) -> Result<Similarity<D>, GeometryError>;
+
+    /// The body's shape, placed. `file` is the shape's file as seen from the working directory.
+    fn build(
+        shape: &Shape,
+        file: Option<&Path>,
+        place: &Similarity<D>,
+    ) -> Result<Built<D>, GeometryError>;
+}
+
+/// The first `D` entries; callers have checked that there are as many.
+fn array<const D: usize>(values: &[f64]) -> [f64; D] {
+    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+}
+
+fn shift<const D: usize>(body: &BodySpec) -> [f64; D] {
+    array(body.translate.as_deref().unwrap_or(&[]))
+}
+
+fn wrong_dimension(shape: &Shape, dimension: usize) -> GeometryError {
+    GeometryError::BadParameter {
+        shape: shape.name(),
+        name: "dimension",
+        value: shape.dimension().unwrap_or(5 - dimension) as f64,
+        needs: "the same as that of the domain and of every other body",
+    }
+}
+
+impl Dimension<2> for Space<2> {
+    fn place(body: &BodySpec) -> Result<Similarity<2>, GeometryError> {
+        Similarity::<2>::new(body.scale, body.rotate_degrees.unwrap_or(0.0), shift(body))
+    }
+
+    fn build(
+        shape: &Shape,
+        file: Option<&Path>,
+        place: &Similarity<2>,
+    ) -> Result<Built<2>, GeometryError> {
+        let outline = match shape {
+            Shape::Circle { center, radius } => {
+                let ball = Ball::new(place.point(array(center)), radius * place.scale())?;
+                let (middle, radius) = (ball.center(), ball.radius());
+                return Ok(Built {
+                    surface: Arc::new(ball),
+                    loops: vec![ring(|angle| {
+                        [
+                            middle[0] + radius * angle.cos(),
+                            middle[1] + radius * angle.sin(),
+                        ]
+                    })],
+                });
+            }
+            Shape::Ellipse { center, semi_axes } => {
+                let (c, a): ([f64; 2], [f64; 2]) = (array(center), array(semi_axes));
+                return Ok(Built {
+                    surface: Arc::new(Placed::new(Arc::new(Ellipsoid::new(c, a)?), *place)),
+                    loops: vec![ring(|angle| {
+                        place.point([c[0] + a[0] * angle.cos(), c[1] + a[1] * angle.sin()])
+                    })],
+                });
+            }
+            Shape::Box { min, max } => {
+                let (a, b): ([f64; 2], [f64; 2]) = (array(min), array(max));
+                return Ok(Built {
+                    surface: Arc::new(Placed::new(Arc::new(Cuboid::new(a, b)?), *place)),
+                    loops: vec![
+                        [a, [b[0], a[1]], b, [a[0], b[1]]]
+                            .map(|corner| place.point(corner))
+                            .to_vec(),
+                    ],
+                });
+            }
+            Shape::Polygon { points } => {
+                Outline::polygon(&points.iter().map(|p| array(p)).collect::<Vec<_>>())?
+            }
+            Shape::Starfish {
+                center,
+                radius,
+                amplitude,
+                arms,
+            } => Outline::starfish(array(center), *radius, *amplitude, *arms)?,
+            Shape::Zigzag {
+                width,
+                height,
+                amplitude,
+                teeth,
+            } => Outline::zigzag(*width, *height, *amplitude, *teeth)?,
+            Shape::Naca { digits, chord } => Outline::naca(digits, *chord)?,
+            Shape::File(path) => Outline::from_csv(file.unwrap_or(path))?,
+            _ => return Err(wrong_dimension(shape, 2)),
+        };
+        let outline = outline.transformed(place);
+        Ok(Built {
+            loops: outline.loops().map(<[_]>::to_vec).collect(),
+            surface: Arc::new(outline),
+        })
+    }
+}
+
+impl Dimension<3> for Space<3> {
+    fn place(body: &BodySpec) -> Result<Similarity<3>, GeometryError> {
+        let (axis, degrees) = match &body.rotate {
+            Some(rotation) => (array(&rotation.axis), rotation.degrees),
+            None => ([0.0, 0.0, 1.0], 0.0),
+        };
+        Similarity::<3>::new(body.scale, axis, degrees, shift(body))
+    }
+
+    fn build(
+        shape: &Shape,
+        file: Option<&Path>,
+        place: &Similarity<3>,
+    ) -> Result<Built<3>, GeometryError> {
+        let surface: Arc<dyn Surface<3>> = match shape {
+            Shape::Sphere { center, radius } => Arc::new(Ball::new(
+                place.point(array(center)),
+                radius * place.scale(),
+            )?),
+            Shape::Ellipsoid { center, semi_axes } => Arc::new(Placed::new(
+                Arc::new(Ellipsoid::<3>::new(array(center), array(semi_axes))?),
+                *place,
+            )),
+            Shape::Box { min, max } => Arc::new(Placed::new(
+                Arc::new(Cuboid::<3>::new(array(min), array(max))?),
+                *place,
+            )),
+            Shape::Cylinder { start, end, radius } => Arc::new(Cylinder::new(
+                place.point(array(start)),
+                place.point(array(end)),
+                radius * place.scale(),
+            )?),
+            Shape::Torus {
+                center,
+                axis,
+                major,
+                minor,
+            } => Arc::new(Torus::new(
+                place.point(array(center)),
+                place.direction(array(axis)),
+                major * place.scale(),
+                minor * place.scale(),
+            )?),
+            Shape::File(path) => {
+                let path = file.unwrap_or(path);
+                Arc::new(
+                    Mesh::read_stl(path)?
+                        .transformed(place)
+                        .map_err(|e| e.in_file(path))?,
+                )
+            }
+            _ => return Err(wrong_dimension(shape, 3)),
+        };
+        Ok(Built {
+            surface,
+            loops: Vec::new(),
+        })
+    }
+}
+
+/// A closed curve as a fine polygon.
+fn ring(at: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 2]> {
+    (0..360).map(|k| at(TAU * f64::from(k) / 360.0)).collect()
+}

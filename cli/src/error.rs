@@ -1,0 +1,117 @@
+//! What can go wrong, and the exit status that says so.
+
+use std::path::{Path, PathBuf};
+
+use sphpack_geometry::GeometryError;
+use sphpack_packing::PackingError;
+
+/// Exit status: everything asked for was done.
+pub const DONE: u8 = 0;
+/// Exit status: something that cannot be foreseen, a full disk for example.
+pub const FAILED: u8 = 1;
+/// Exit status: the input, or the command line, is wrong.
+pub const BAD_INPUT: u8 = 2;
+/// Exit status: the files are written, but the packing has not reached its tolerance.
+pub const NOT_CONVERGED: u8 = 3;
+/// Exit status: stopped by Ctrl-C; what there was is written.
+pub const INTERRUPTED: u8 = 130;
+
+/// Why a scene is not packed, or files are not written. One message each, with the cure.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Something in a scene file is wrong.
+    #[error("{}{}: {message}", path.display(), place(*at))]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// Line and column, counted from 1, where there is one.
+        at: Option<(usize, usize)>,
+        /// What is wrong, and the cure.
+        message: String,
+    },
+    /// The scene can be read, but not packed.
+    #[error("{}: {source}", path.display())]
+    Packing {
+        /// The scene's file.
+        path: PathBuf,
+        /// What is wrong.
+        source: PackingError,
+    },
+    /// A body cannot be built.
+    #[error("{}: body \"{body}\": {source}", path.display())]
+    Body {
+        /// The scene's file.
+        path: PathBuf,
+        /// The body's name.
+        body: String,
+        /// What is wrong.
+        source: GeometryError,
+    },
+    /// An input file cannot be used.
+    #[error("{}{}: {message}", path.display(), place(at.map(|line| (line, 0))))]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// The line, counted from 1, where there is one.
+        at: Option<usize>,
+        /// What is wrong, and the cure.
+        message: String,
+    },
+    /// The command line asks for something impossible.
+    #[error("{0}")]
+    Usage(String),
+    /// A file cannot be written although everything looked well before.
+    #[error("cannot write {}: {reason}; nothing was left behind", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The operating system's reason.
+        reason: String,
+    },
+    /// The machine does not give what is needed.
+    #[error("{0}")]
+    System(String),
+}
+
+/// ":line:column", as far as known.
+fn place(at: Option<(usize, usize)>) -> String {
+    match at {
+        None => String::new(),
+        Some((line, 0)) => format!(":{line}"),
+        Some((line, column)) => format!(":{line}:{column}"),
+    }
+}
+
+impl Error {
+    /// The command's exit status for this error.
+    pub fn status(&self) -> u8 {
+        match self {
+            Self::Write { .. } | Self::System(_) => FAILED,
+            _ => BAD_INPUT,
+        }
+    }
+
+    pub(crate) fn input(path: &Path, message: impl Into<String>) -> Self {
+        Self::Input {
+            path: path.to_owned(),
+            at: None,
+            message: message.into(),
+        }
+    }
+
+    pub(crate) fn input_line(path: &Path, line: usize, message: impl Into<String>) -> Self {
+        Self::Input {
+            path: path.to_owned(),
+            at: Some(line),
+            message: message.into(),
+        }
+    }
+
+    pub(crate) fn write(path: &Path, reason: impl ToString) -> Self {
+        Self::Write {
+            path: path.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Particle formats by name.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use crate::Error;
+use crate::scene::advice;
+use crate::table::Table;
+
+/// A format of particle files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ParticleFormat {
+    /// Text, one row per particle, a header line.
+    Csv,
+    /// VTK's unstructured grid; opens in ParaView and pyvista.
+    Vtu,
+}
+
+/// Every format: its ending and a line for people.
+pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 2] =
+    [(ParticleFormat::Vtu, "vtu"), (ParticleFormat::Csv, "csv")];
+
+impl ParticleFormat {
+    /// The format that a path's ending names.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with the known endings.
+    pub fn of(path: &Path) -> Result<Self, Error> {
+        let ending = path
+            .extension()
+            .map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
+        PARTICLE_FORMATS
+            .iter()
+            .find(|(_, name)| *name == ending)
+            .map(|&(format, _)| format)
+            .ok_or_else(|| {
+                let known = PARTICLE_FORMATS.map(|(_, name)| name);
+                Error::input(
+                    path,
+                    format!(
+                        "particles cannot be written or read as \"{ending}\"; {}",
+                        advice(&ending, &known)
+                    ),
+                )
+            })
+    }
+
+    /// Writes particles.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(self, table: &Table, to: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Csv => super::write_csv(table, to),
+            Self::Vtu => super::write_vtu(table, to),
+        }
+    }
+}

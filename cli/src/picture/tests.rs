@@ -1,0 +1,126 @@
+//! Pictures of made-up particles.
+
+use sphpack_packing::Kind;
+use sphpack_separation::Side;
+
+use super::*;
+
+/// A square or cubic lattice with a body in its middle.
+fn table(dimension: usize) -> Table {
+    let mut table = Table {
+        dimension,
+        bodies: vec!["body".into()],
+        ..Table::default()
+    };
+    let depth = if dimension == 2 { 1 } else { 12 };
+    for number in 0..12 * 12 * depth {
+        let cell = [number % 12, number / 12 % 12, number / 144];
+        let position = cell.map(|k| 0.1 * (k as f64 - 5.5));
+        let position = [
+            position[0],
+            position[1],
+            if dimension == 2 { 0.0 } else { position[2] },
+        ];
+        let distance = sphpack_neighbors::point::norm(position);
+        let rim = position.iter().any(|x| x.abs() > 0.5);
+        table.id.push(number as u32);
+        table.position.push(position);
+        table.kind.push(match distance {
+            _ if rim => Kind::Frozen,
+            d if d < 0.25 => Kind::Free,
+            d if d < 0.35 => Kind::Boundary,
+            _ => Kind::Free,
+        });
+        let is_solid = distance < 0.35;
+        table
+            .side
+            .push(if is_solid { Side::Solid } else { Side::Fluid });
+        table.body.push(is_solid.then_some(0));
+        table.volume.push(0.1_f64.powi(dimension as i32));
+        table.mass.push(0.01);
+        table.gamma.push(1.0 + 0.004 * position[0]);
+        table.residual.push(0.0);
+        table.normal.push([0.0; 3]);
+    }
+    table
+}
+
+fn drawn(table: &Table, format: PictureFormat) -> Vec<u8> {
+    let half = 0.5;
+    let subject = Subject {
+        name: "a <b> & \"c\"\n",
+        table,
+        loops: &[vec![[-0.35, 0.0], [0.35, 0.0], [0.0, 0.35]]],
+        domain: [[-half; 3], [half; 3]],
+        spacing: 0.1,
+        is_unfinished: true,
+    };
+    let mut bytes = Vec::new();
+    draw(&subject, format, &mut bytes).unwrap();
+    bytes
+}
+
+/// Width and height of a PNG, decoded whole.
+fn decoded(bytes: &[u8]) -> (u32, u32) {
+    let mut reader = ::png::Decoder::new(io::Cursor::new(bytes))
+        .read_info()
+        .unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    (info.width, info.height)
+}
+
+#[test]
+fn svg_is_well_formed() {
+    let text = String::from_utf8(drawn(&table(2), PictureFormat::Svg)).unwrap();
+    assert!(
+        text.contains("a &lt;b&gt; &amp; &quot;c&quot;: ∆s = 0.1, 100 particles"),
+        "{}",
+        &text[..600]
+    );
+    assert!(text.contains("unfinished"));
+    assert_eq!(text.matches("<circle").count(), 144 + 3);
+    // Every tag is closed, nothing is not a number, and all text is escaped.
+    let mut open = Vec::new();
+    for part in text.split('<').skip(1) {
+        let (tag, rest) = part.split_once('>').unwrap();
+        assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+        assert!(!rest.contains('>'), "{rest}");
+        match tag.strip_prefix('/') {
+            Some(name) => assert_eq!(open.pop(), Some(name.to_owned())),
+            None if tag.ends_with('/') => {}
+            None => open.push(tag.split_whitespace().next().unwrap().to_owned()),
+        }
+    }
+    assert!(open.is_empty());
+    assert!(!text.contains("NaN") && !text.contains("inf"));
+}
+
+#[test]
+fn pngs_are_large_enough() {
+    for dimension in [2, 3] {
+        let (width, height) = decoded(&drawn(&table(dimension), PictureFormat::Png));
+        assert!(width >= 1600 && height >= 900, "{width} x {height}");
+    }
+}
+
+#[test]
+fn scenes_without_bodies_are_drawn_too() {
+    for dimension in [2, 3] {
+        let empty = table(dimension).filtered(|i| i % 7 == 0 && i > 1_000_000);
+        decoded(&drawn(&empty, PictureFormat::Png));
+        let mut fluid = table(dimension);
+        fluid.kind.iter_mut().for_each(|kind| *kind = Kind::Free);
+        fluid.side.iter_mut().for_each(|side| *side = Side::Fluid);
+        fluid.body.iter_mut().for_each(|body| *body = None);
+        decoded(&drawn(&fluid, PictureFormat::Png));
+    }
+}
+
+#[test]
+fn thousands_are_set_apart() {
+    assert_eq!(
+        [0, 999, 1000, 1_234_567].map(grouped),
+        ["0", "999", "1,000", "1,234,567"]
+    );
+}

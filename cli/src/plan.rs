@@ -1,0 +1,245 @@
+//! From a scene to a problem, before any particle is placed.
+
+use std::time::Instant;
+
+use sphpack_neighbors::{Bounds, Domain};
+use sphpack_packing::{Body, Estimate, FrozenLayout, PackingError, Problem};
+
+use crate::Error;
+use crate::body_file::BodyFile;
+use crate::dimension::{Dimension, Space};
+use crate::report::kibibytes;
+use crate::scene::{Fault, Frozen, Scene};
+
+/// What a scene will need.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// Particles, memory and time.
+    pub estimate: Estimate,
+    /// The memory that may be used, bytes.
+    pub allowed_bytes: f64,
+}
+
+/// A scene's problem.
+pub(crate) struct Prepared<const D: usize> {
+    pub(crate) problem: Problem<D>,
+    /// The scene with its defaults filled in.
+    pub(crate) resolved: Scene,
+    /// In 2-D, the bodies' closed loops.
+    pub(crate) loops: Vec<Vec<[f64; 2]>>,
+    /// Seconds spent on building the bodies.
+    pub(crate) seconds: f64,
+}
+
+/// Where `/proc` does not say how much memory there is.
+const FALLBACK_BYTES: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
+
+/// Particles are numbered with 32 bits.
+const MAX_PARTICLES: f64 = 4e9;
+
+/// What a scene will need; builds its bodies, places no particles.
+///
+/// # Errors
+/// Those of [`crate::run`].
+pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
+    let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
+    let estimate = match dimension(scene)? {
+        2 => prepare::<2>(scene, allowed_bytes)?.1,
+        _ => prepare::<3>(scene, allowed_bytes)?.1,
+    };
+    Ok(Plan {
+        dimension: dimension(scene)?,
+        estimate,
+        allowed_bytes,
+    })
+}
+
+/// Memory that can be had without swapping, bytes.
+pub(crate) fn available_bytes() -> f64 {
+    kibibytes("/proc/meminfo", "MemAvailable:").map_or(FALLBACK_BYTES, |bytes| bytes as f64)
+}
+
+/// 2 or 3; looks into files where need be. Refuses scenes that do not pass [`Scene::check`], or mix dimensions.
+pub(crate) fn dimension(scene: &Scene) -> Result<usize, Error> {
+    let fail = |message: String| Error::Scene {
+        path: scene.path.clone(),
+        at: None,
+        message,
+    };
+    scene
+        .check()
+        .map_err(|Fault { message, .. }| fail(message))?;
+    let mut known = scene
+        .domain
+        .min
+        .as_ref()
+        .map(|min| (min.len(), "the domain".to_owned()));
+    for body in &scene.body {
+        let (dimension, what) = match body.shape.file() {
+            Some(file) => {
+                let path = scene.resolve(file);
+                let kind = BodyFile::detect(&path)?;
+                let what = match kind {
+                    BodyFile::Stl => "a mesh",
+                    BodyFile::Csv => "an outline",
+                };
+                (kind.dimension(), format!("{}, {what}", path.display()))
+            }
+            None => (
+                body.shape.dimension().unwrap_or(3),
+                body.shape.name().to_owned(),
+            ),
+        };
+        match &known {
+            Some((other, of)) if *other != dimension => {
+                return Err(fail(format!(
+                    "body \"{}\" is {dimension}-dimensional ({what}), {of} is {other}-dimensional; all must agree",
+                    body.name
+                )));
+            }
+            Some(_) => {}
+            None => known = Some((dimension, format!("body \"{}\"", body.name))),
+        }
+        let misfit = match dimension {
+            2 if body.rotate.is_some() => {
+                Some("write rotate_degrees = … instead of rotate".to_owned())
+            }
+            3 if body.rotate_degrees.is_some() => Some(
+                "write rotate = { axis = [0, 0, 1], degrees = … } instead of rotate_degrees"
+                    .to_owned(),
+            ),
+            _ => match &body.translate {
+                Some(shift) if shift.len() != dimension => Some(format!(
+                    "translate needs {dimension} entries, not {}",
+                    shift.len()
+                )),
+                _ => None,
+            },
+        };
+        if let Some(cure) = misfit {
+            return Err(fail(format!(
+                "body \"{}\" is {dimension}-dimensional; {cure}",
+                body.name
+            )));
+        }
+    }
+    let dimension = known.map_or(2, |(dimension, _)| dimension);
+    match &scene.domain.periodic {
+        Some(periodic) if periodic.len() != dimension => Err(fail(format!(
+            "domain.periodic has {} entries; it needs {dimension}, one for each axis",
+            periodic.len()
+        ))),
+        _ => Ok(dimension),
+    }
+}
+
+/// Builds the bodies and the problem, and sees whether it makes sense and fits into memory.
+pub(crate) fn prepare<const D: usize>(
+    scene: &Scene,
+    allowed_bytes: f64,
+) -> Result<(Prepared<D>, Estimate), Error>
+where
+    Space<D>: Dimension<D>,
+{
+    let begin = Instant::now();
+    let mut bodies = Vec::new();
+    let mut loops = Vec::new();
+    for body in &scene.body {
+        let file = body.shape.file().map(|file| scene.resolve(file));
+        let built = Space::<D>::place(body)
+            .and_then(|place| Space::<D>::build(&body.shape, file.as_deref(), &place))
+            .map_err(|source| match source {
+                // The message names the file already.
+                sphpack_geometry::GeometryError::InFile { path, source } => Error::Input {
+                    path: path.into(),
+                    at: None,
+                    message: source.to_string(),
+                },
+                source => Error::Body {
+                    path: scene.path.clone(),
+                    body: body.name.clone(),
+                    source,
+                },
+            })?;
+        loops.extend(built.loops);
+        bodies.push(Body {
+            name: body.name.clone(),
+            surface: built.surface,
+            inset_over_spacing: body.surface.0,
+        });
+    }
+    let domain = domain(scene, &bodies);
+    let problem = Problem {
+        domain,
+        spacing: scene.spacing,
+        bodies,
+        kernel: scene.packing.kernel,
+        h_over_spacing: scene.packing.h_over_spacing,
+        seed: scene.packing.seed,
+        lattice: scene.packing.lattice,
+        frozen: match scene.packing.frozen {
+            Frozen::Lattice => FrozenLayout::Lattice,
+            Frozen::Square => FrozenLayout::Square,
+        },
+    };
+    let fail = |source: PackingError| Error::Packing {
+        path: scene.path.clone(),
+        source,
+    };
+    let estimate = problem.estimate().map_err(fail)?;
+    judged(&problem, scene).check().map_err(fail)?;
+    let particles = estimate.particles + estimate.frozen;
+    if estimate.memory_bytes > allowed_bytes || !(particles < MAX_PARTICLES) {
+        return Err(fail(PackingError::TooLarge {
+            particles,
+            needed_bytes: estimate.memory_bytes,
+            allowed_bytes,
+        }));
+    }
+    let mut resolved = scene.clone();
+    resolved.domain.min = Some(domain.bounds.min.to_vec());
+    resolved.domain.max = Some(domain.bounds.max.to_vec());
+    resolved.domain.periodic = Some(domain.periodic.to_vec());
+    resolved.packing.lattice = Some(problem.chosen_lattice());
+    let (kernel, h_over_spacing) = scene.judge();
+    resolved.quality.kernel = Some(kernel);
+    resolved.quality.h_over_spacing = Some(h_over_spacing);
+    Ok((
+        Prepared {
+            problem,
+            resolved,
+            loops,
+            seconds: begin.elapsed().as_secs_f64(),
+        },
+        estimate,
+    ))
+}
+
+/// The same problem with the kernel that judges.
+pub(crate) fn judged<const D: usize>(problem: &Problem<D>, scene: &Scene) -> Problem<D> {
+    let (kernel, h_over_spacing) = scene.judge();
+    Problem {
+        kernel,
+        h_over_spacing,
+        ..problem.clone()
+    }
+}
+
+fn domain<const D: usize>(scene: &Scene, bodies: &[Body<D>]) -> Domain<D> {
+    let spec = &scene.domain;
+    let corner = |values: &[f64]| std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0));
+    let bounds = match (&spec.min, &spec.max) {
+        (Some(min), Some(max)) => Bounds::new(corner(min), corner(max)),
+        _ => bodies
+            .iter()
+            .fold(Bounds::EMPTY, |all, body| all.union(body.surface.bounds()))
+            .grown(spec.margin.unwrap_or(0.0)),
+    };
+    let periodic = spec.periodic.as_deref().unwrap_or(&[]);
+    Domain {
+        bounds,
+        periodic: std::array::from_fn(|k| periodic.get(k).copied().unwrap_or(false)),
+    }
+}

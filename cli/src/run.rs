@@ -1,0 +1,331 @@
+//! The way of the data: scene, problem, particles, labels, figures.
+
+use sphpack_kernels::KernelKind;
+use sphpack_neighbors::{Domain, point};
+use sphpack_packing::{
+    Fields, FrozenLayout, Hybrid, Kind, Lattice, Observer, Packed, PackingError, Problem, Quality,
+    StopReason,
+};
+use sphpack_separation::{Labels, Side};
+
+use crate::Error;
+use crate::dimension::{Dimension, Space};
+use crate::labels::{Sorted, sort};
+use crate::plan::{Prepared, available_bytes, dimension, judged, prepare};
+use crate::report::{
+    BodyReport, Counts, History, Report, SCHEMA, SecondsReport, SurfaceReport, peak_memory_bytes,
+};
+use crate::scene::{Method, Scene};
+use crate::table::Table;
+
+/// What a run may use.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Options {
+    /// The most memory that a packing may be estimated to need, bytes; `None` is what the machine has free.
+    pub memory_bytes: Option<f64>,
+}
+
+/// A packed scene in its own dimension.
+#[derive(Debug, Clone)]
+pub struct Solution<const D: usize> {
+    /// What was to be packed.
+    pub problem: Problem<D>,
+    /// All particles, and how they came there.
+    pub packed: Packed<D>,
+    /// Which belongs to what; frozen ones are labelled fluid.
+    pub labels: Labels,
+    /// Γ and its gradient as the scene's quality settings ask; zero for frozen particles.
+    pub fields: Fields<D>,
+    /// The figures of these fields.
+    pub quality: Quality,
+}
+
+/// A packed scene in the plane or in space.
+#[derive(Debug, Clone)]
+pub enum Packing {
+    /// 2-D.
+    Plane(Solution<2>),
+    /// 3-D.
+    Space(Solution<3>),
+}
+
+/// Everything that a run gives.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// Particles and figures in their own dimension.
+    pub packing: Packing,
+    /// The particles that roles and `fluid.fill` keep, by id; `output.include` is left to whoever writes.
+    pub table: Table,
+    /// In 2-D, the true bodies as closed loops.
+    pub loops: Vec<Vec<[f64; 2]>>,
+    /// The figures, dimension forgotten.
+    pub report: Report,
+}
+
+/// Packs a scene. Reads the bodies' files, writes nothing.
+///
+/// # Errors
+/// [`Error`] where the scene makes no sense, a body's file cannot be used, or memory would not do.
+pub fn run(
+    scene: &Scene,
+    options: &Options,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
+    let allowed = options.memory_bytes.unwrap_or_else(available_bytes);
+    match dimension(scene)? {
+        2 => run_in::<2>(scene, allowed, observer, Packing::Plane),
+        _ => run_in::<3>(scene, allowed, observer, Packing::Space),
+    }
+}
+
+fn run_in<const D: usize>(
+    scene: &Scene,
+    allowed_bytes: f64,
+    observer: &mut dyn Observer,
+    wrap: fn(Solution<D>) -> Packing,
+) -> Result<Outcome, Error>
+where
+    Space<D>: Dimension<D>,
+{
+    let (prepared, _) = prepare::<D>(scene, allowed_bytes)?;
+    let Prepared {
+        problem,
+        resolved,
+        loops,
+        seconds: built,
+    } = prepared;
+    let packed = pack(&problem, scene, observer).map_err(|source| Error::Packing {
+        path: scene.path.clone(),
+        source,
+    })?;
+    let Sorted { labels, keep } = sort(&packed, scene)
+        .map_err(|e| Error::System(format!("particles cannot be separated: {e}")))?;
+    let fields = measure(&judged(&problem, scene), &problem, &packed);
+    let quality = packed.quality(&fields);
+    let solution = Solution {
+        problem,
+        packed,
+        labels,
+        fields,
+        quality,
+    };
+    let table = table(scene, &solution).kept_by_id(&keep);
+    let report = report(scene, resolved, &solution, &table, built);
+    Ok(Outcome {
+        packing: wrap(solution),
+        table,
+        loops,
+        report,
+    })
+}
+
+fn pack<const D: usize>(
+    problem: &Problem<D>,
+    scene: &Scene,
+    observer: &mut dyn Observer,
+) -> Result<Packed<D>, PackingError> {
+    match scene.packing.method {
+        // Scene::check has refused methods that are not there.
+        Method::Hybrid
+        | Method::Balanced
+        | Method::Standard
+        | Method::Coupled
+        | Method::Relaxation
+        | Method::Complex => Hybrid {
+            velocity_tolerance: scene.packing.velocity_tolerance,
+            max_iterations: scene.packing.max_iterations,
+            ..Hybrid::default()
+        }
+        .pack(problem, observer),
+    }
+}
+
+/// Γ and ∇Γ by the kernel that judges. Where that reaches beyond the frozen particles of the packing, their lattice is
+/// continued for the measurement.
+fn measure<const D: usize>(
+    judge: &Problem<D>,
+    problem: &Problem<D>,
+    packed: &Packed<D>,
+) -> Fields<D> {
+    let (kernel, h) = (judge.kernel, judge.smoothing_length());
+    if judge.support() <= problem.frozen_depth() {
+        return packed.fields(kernel, judge.h_over_spacing);
+    }
+    let particles = &packed.particles;
+    let lattice = match (problem.frozen, D) {
+        (FrozenLayout::Lattice, _) => problem.chosen_lattice(),
+        (FrozenLayout::Square, 2) => Lattice::Square,
+        (FrozenLayout::Square, _) => Lattice::SimpleCubic,
+    };
+    let there = problem.domain.bounds.grown(problem.frozen_depth());
+    let filling = lattice.fill(problem.domain.bounds, problem.spacing);
+    let mut positions = particles.position.clone();
+    positions.extend(
+        filling
+            .continued(&problem.domain, judge.frozen_depth())
+            .into_iter()
+            .filter(|&p| !there.contains(p)),
+    );
+    let mut volumes = particles.volume.clone();
+    volumes.resize(positions.len(), problem.filling().volume_per_site());
+    let mut fields = measured(
+        &packed.domain,
+        &positions,
+        &volumes,
+        &particles.kind,
+        kernel,
+        h,
+    );
+    fields.gamma.truncate(particles.len());
+    fields.gradient.truncate(particles.len());
+    fields
+}
+
+fn measured<const D: usize>(
+    domain: &Domain<D>,
+    positions: &[[f64; D]],
+    volumes: &[f64],
+    kind: &[Kind],
+    kernel: KernelKind,
+    h: f64,
+) -> Fields<D> {
+    let is_measured = |i: usize| kind.get(i).is_some_and(|&kind| kind != Kind::Frozen);
+    Fields::measure(domain, positions, volumes, is_measured, kernel, h)
+}
+
+/// A point with z = 0 where it has none.
+fn padded<const D: usize>(p: [f64; D]) -> [f64; 3] {
+    std::array::from_fn(|k| p.get(k).copied().unwrap_or(0.0))
+}
+
+fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
+    let Solution {
+        packed,
+        labels,
+        fields,
+        ..
+    } = solution;
+    let particles = &packed.particles;
+    let all = 0..particles.len();
+    let density = |i: usize| match labels.body[i] {
+        Some(body) => scene
+            .body
+            .get(usize::from(body))
+            .map_or(1.0, |body| body.density),
+        None => scene.fluid.density,
+    };
+    let normal = |i: usize| {
+        let on = particles.body[i].filter(|_| particles.kind[i].is_on_surface());
+        on.and_then(|body| packed.surfaces.get(usize::from(body)))
+            .map_or([0.0; D], |surface| {
+                surface.surface.closest(particles.position[i]).normal
+            })
+    };
+    Table {
+        dimension: D,
+        stop_reason: packed.stop_reason.name().to_owned(),
+        bodies: packed.bodies.clone(),
+        id: particles.id.clone(),
+        position: all.clone().map(|i| padded(particles.position[i])).collect(),
+        kind: particles.kind.clone(),
+        side: labels.side.clone(),
+        body: labels.body.clone(),
+        volume: particles.volume.clone(),
+        mass: all
+            .clone()
+            .map(|i| density(i) * particles.volume[i])
+            .collect(),
+        gamma: fields.gamma.clone(),
+        residual: all
+            .clone()
+            .map(|i| fields.smoothing_length * point::norm(fields.gradient[i]))
+            .collect(),
+        normal: all.map(|i| padded(normal(i))).collect(),
+    }
+}
+
+fn report<const D: usize>(
+    scene: &Scene,
+    resolved: Scene,
+    solution: &Solution<D>,
+    table: &Table,
+    built: f64,
+) -> Report {
+    let Solution {
+        problem,
+        packed,
+        labels,
+        quality,
+        ..
+    } = solution;
+    let count = |kind: Kind| table.kind.iter().filter(|&&k| k == kind).count();
+    let inner = |side: Side| {
+        (0..table.len())
+            .filter(|&i| table.kind[i] != Kind::Frozen && table.side[i] == side)
+            .count()
+    };
+    let bodies = (problem.bodies.iter().zip(&scene.body).zip(0_u16..))
+        .map(|((body, spec), number)| {
+            // A particle on an exact surface is half inside; one that sits ∆s/2 inside, wholly.
+            let on_surface = (0.5 + body.inset_over_spacing).min(1.0);
+            let volume = (0..packed.particles.len())
+                .filter(|&i| labels.body[i] == Some(number))
+                .map(|i| {
+                    let share = if packed.particles.kind[i].is_on_surface() {
+                        on_surface
+                    } else {
+                        1.0
+                    };
+                    share * packed.particles.volume[i]
+                })
+                .sum();
+            BodyReport {
+                name: body.name.clone(),
+                volume_true: body.surface.volume(),
+                volume,
+                mass: spec.density * volume,
+            }
+        })
+        .collect();
+    let seconds = &packed.seconds;
+    Report {
+        schema: SCHEMA,
+        version: env!("CARGO_PKG_VERSION"),
+        scene: resolved,
+        dimension: D,
+        spacing: problem.spacing,
+        method: scene.packing.method.name(),
+        kernel: problem.kernel.name(),
+        h_over_spacing: problem.h_over_spacing,
+        seed: scene.packing.seed,
+        threads: rayon::current_num_threads(),
+        converged: packed.stop_reason == StopReason::Converged,
+        stop_reason: packed.stop_reason.name(),
+        iterations: packed.iterations,
+        force_evaluations: packed.force_evaluations,
+        particles: Counts {
+            total: table.len(),
+            free: count(Kind::Free),
+            boundary: count(Kind::Boundary),
+            fixed: count(Kind::Fixed),
+            frozen: count(Kind::Frozen),
+            solid: inner(Side::Solid),
+            fluid: inner(Side::Fluid),
+        },
+        density: quality.density.into(),
+        residual: quality.residual.into(),
+        surface: quality.surface.iter().map(SurfaceReport::from).collect(),
+        bodies,
+        seconds: SecondsReport {
+            total: built + seconds.total,
+            geometry: built + seconds.geometry,
+            seeding: seconds.seeding,
+            neighbors: seconds.neighbors,
+            forces: seconds.forces,
+            projection: seconds.projection,
+            output: 0.0,
+        },
+        peak_memory_bytes: peak_memory_bytes(),
+        history: packed.history.iter().map(History::from).collect(),
+    }
+}

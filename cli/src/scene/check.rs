@@ -1,0 +1,422 @@
+//! Whether a scene makes sense, as far as that can be said without building its bodies.
+
+use sphpack_packing::Kind;
+
+use super::nearest::advice;
+use super::{BodySpec, Finish, Method, Scene, Shape};
+
+/// A step on the way to a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Key {
+    /// Of a table.
+    Name(&'static str),
+    /// Of an array.
+    Index(usize),
+}
+
+/// What is wrong with a scene, and where.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct Fault {
+    /// The way to the value.
+    pub(crate) keys: Vec<Key>,
+    /// What is wrong, and the cure.
+    pub message: String,
+}
+
+type Checked = Result<(), Fault>;
+
+/// The largest number of bodies.
+const MAX_BODIES: usize = 1000;
+
+fn fault(keys: &[Key], message: impl Into<String>) -> Checked {
+    Err(Fault {
+        keys: keys.to_vec(),
+        message: message.into(),
+    })
+}
+
+fn positive(keys: &[Key], name: &str, value: f64) -> Checked {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    fault(
+        keys,
+        format!("{name} is {value}; it must be a positive, finite number"),
+    )
+}
+
+fn finite(keys: &[Key], name: &str, values: &[f64]) -> Checked {
+    match values.iter().find(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(value) => fault(
+            keys,
+            format!("{name} holds {value}; every entry must be a finite number"),
+        ),
+    }
+}
+
+fn vector(keys: &[Key], name: &str, values: &[f64], dimension: usize) -> Checked {
+    if values.len() != dimension {
+        return fault(
+            keys,
+            format!(
+                "{name} has {} entries; it needs {dimension}, one for each axis",
+                values.len()
+            ),
+        );
+    }
+    finite(keys, name, values)
+}
+
+impl Scene {
+    /// Whether every number is in its range and the dimensions agree; files are not looked into.
+    ///
+    /// # Errors
+    /// The first [`Fault`] found.
+    pub fn check(&self) -> Result<(), Fault> {
+        positive(&[Key::Name("spacing")], "spacing", self.spacing)?;
+        self.check_domain()?;
+        if self.body.len() > MAX_BODIES {
+            return fault(
+                &[Key::Name("body")],
+                format!(
+                    "there are {} bodies; {MAX_BODIES} are the most",
+                    self.body.len()
+                ),
+            );
+        }
+        for (index, body) in self.body.iter().enumerate() {
+            check_body(body, index)?;
+            if let Some(twin) = self.body[..index].iter().position(|b| b.name == body.name) {
+                return fault(
+                    &[Key::Name("body"), Key::Index(index), Key::Name("name")],
+                    format!(
+                        "bodies {} and {} are both called \"{}\"; give each its own name",
+                        twin + 1,
+                        index + 1,
+                        body.name
+                    ),
+                );
+            }
+        }
+        self.check_dimensions()?;
+        positive(
+            &[Key::Name("fluid"), Key::Name("density")],
+            "fluid.density",
+            self.fluid.density,
+        )?;
+        self.check_packing()?;
+        if let Some(value) = self.quality.h_over_spacing {
+            ratio(
+                &[Key::Name("quality"), Key::Name("h_over_spacing")],
+                "quality.h_over_spacing",
+                value,
+            )?;
+        }
+        let known = Kind::ALL.map(Kind::name);
+        for (index, name) in self.output.include.iter().enumerate() {
+            if !known.contains(&name.as_str()) {
+                return fault(
+                    &[Key::Name("output"), Key::Name("include"), Key::Index(index)],
+                    format!(
+                        "no kind of particles is called \"{name}\"; {}",
+                        advice(name, &known)
+                    ),
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn check_domain(&self) -> Checked {
+        let at = |name| [Key::Name("domain"), Key::Name(name)];
+        let domain = &self.domain;
+        let dimension = match (&domain.min, &domain.max, domain.margin) {
+            (Some(min), Some(max), None) => {
+                if min.len() != 2 && min.len() != 3 {
+                    return fault(
+                        &at("min"),
+                        format!(
+                            "domain.min has {} entries; write two (2-D) or three (3-D)",
+                            min.len()
+                        ),
+                    );
+                }
+                finite(&at("min"), "domain.min", min)?;
+                vector(&at("max"), "domain.max", max, min.len())?;
+                for (axis, (low, high)) in min.iter().zip(max).enumerate() {
+                    if low >= high {
+                        return fault(
+                            &at("max"),
+                            format!(
+                                "domain.max[{axis}] is {high}, not above domain.min[{axis}], which is {low}; make it larger"
+                            ),
+                        );
+                    }
+                }
+                Some(min.len())
+            }
+            (None, None, Some(margin)) => {
+                positive(&at("margin"), "domain.margin", margin)?;
+                if self.body.is_empty() {
+                    return fault(
+                        &at("margin"),
+                        "domain.margin needs a body to go around; add a [[body]], or write min and max",
+                    );
+                }
+                None
+            }
+            (_, _, Some(_)) => {
+                return fault(
+                    &at("margin"),
+                    "domain has margin besides min or max; write either margin, or both min and max",
+                );
+            }
+            _ => {
+                return fault(
+                    &[Key::Name("domain")],
+                    "domain needs min and max, such as min = [-2, -2] and max = [2, 2], or a margin around the bodies",
+                );
+            }
+        };
+        match (&domain.periodic, dimension) {
+            (Some(periodic), Some(dimension)) if periodic.len() != dimension => fault(
+                &at("periodic"),
+                format!(
+                    "domain.periodic has {} entries; it needs {dimension}, one for each axis",
+                    periodic.len()
+                ),
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    /// Bodies whose shapes say their dimension must agree with the domain and with each other.
+    fn check_dimensions(&self) -> Checked {
+        let mut known = self
+            .domain
+            .min
+            .as_ref()
+            .map(|min| (min.len(), "the domain".to_owned()));
+        for (index, body) in self.body.iter().enumerate() {
+            let Some(dimension) = body.shape.dimension() else {
+                continue;
+            };
+            match &known {
+                Some((other, of)) if *other != dimension => {
+                    return fault(
+                        &[Key::Name("body"), Key::Index(index), Key::Name("shape")],
+                        format!(
+                            "body \"{}\" is {dimension}-dimensional ({}), {of} is {other}-dimensional; all must agree",
+                            body.name,
+                            body.shape.name()
+                        ),
+                    );
+                }
+                Some(_) => {}
+                None => known = Some((dimension, format!("body \"{}\"", body.name))),
+            }
+        }
+        Ok(())
+    }
+
+    fn check_packing(&self) -> Checked {
+        let packing = &self.packing;
+        let at = |name| [Key::Name("packing"), Key::Name(name)];
+        let info = packing.method.info();
+        if !info.is_available {
+            return fault(
+                &at("method"),
+                format!(
+                    "the method \"{}\" is not in this version yet; use {}",
+                    info.name,
+                    Method::available().join(", ")
+                ),
+            );
+        }
+        if packing.method == Method::Hybrid && packing.finish == Finish::Consistent {
+            return fault(
+                &at("finish"),
+                "finish = \"consistent\" is for methods that minimise; the method \"hybrid\" keeps its repulsion: use finish = \"even\"",
+            );
+        }
+        ratio(
+            &at("h_over_spacing"),
+            "packing.h_over_spacing",
+            packing.h_over_spacing,
+        )?;
+        positive(
+            &at("velocity_tolerance"),
+            "packing.velocity_tolerance",
+            packing.velocity_tolerance,
+        )?;
+        positive(
+            &at("residual_tolerance"),
+            "packing.residual_tolerance",
+            packing.residual_tolerance,
+        )
+    }
+}
+
+/// h/∆s within what a smoothing length can sensibly be.
+fn ratio(keys: &[Key], name: &str, value: f64) -> Checked {
+    positive(keys, name, value)?;
+    if (0.5..=5.0).contains(&value) {
+        return Ok(());
+    }
+    fault(
+        keys,
+        format!("{name} is {value}; it must be between 0.5 and 5 (usual are 1.0 to 2.0)"),
+    )
+}
+
+fn check_body(body: &BodySpec, index: usize) -> Checked {
+    let at = |name| vec![Key::Name("body"), Key::Index(index), Key::Name(name)];
+    let called = format!("body \"{}\"", body.name);
+    if body.name.chars().any(char::is_control) || body.name.chars().count() > 100 {
+        return fault(
+            &at("name"),
+            format!(
+                "body {}: the name holds a line break or another control character, or is longer than 100; use a short, plain name",
+                index + 1
+            ),
+        );
+    }
+    check_shape(&body.shape, &called, &at("shape"))?;
+    positive(&at("scale"), &format!("{called}: scale"), body.scale)?;
+    positive(&at("density"), &format!("{called}: density"), body.density)?;
+    let inset = body.surface.0;
+    if !(0.0..=10.0).contains(&inset) {
+        return fault(
+            &at("surface"),
+            format!(
+                "{called}: surface is {inset}; it must be \"inset\", \"exact\", or a number of spacings from 0 to 10"
+            ),
+        );
+    }
+    let dimension = body.shape.dimension();
+    if let Some(degrees) = body.rotate_degrees {
+        finite(
+            &at("rotate_degrees"),
+            &format!("{called}: rotate_degrees"),
+            &[degrees],
+        )?;
+        if dimension == Some(3) {
+            return fault(
+                &at("rotate_degrees"),
+                format!(
+                    "{called} is 3-dimensional; write rotate = {{ axis = [0, 0, 1], degrees = {degrees} }} instead of rotate_degrees"
+                ),
+            );
+        }
+    }
+    if let Some(rotation) = &body.rotate {
+        vector(
+            &at("rotate"),
+            &format!("{called}: rotate.axis"),
+            &rotation.axis,
+            3,
+        )?;
+        finite(
+            &at("rotate"),
+            &format!("{called}: rotate.degrees"),
+            &[rotation.degrees],
+        )?;
+        if rotation.axis.iter().all(|&x| x == 0.0) {
+            return fault(
+                &at("rotate"),
+                format!("{called}: rotate.axis is zero; give a direction, such as [0, 0, 1]"),
+            );
+        }
+        if dimension == Some(2) {
+            return fault(
+                &at("rotate"),
+                format!(
+                    "{called} is 2-dimensional; write rotate_degrees = {} instead of rotate",
+                    rotation.degrees
+                ),
+            );
+        }
+    }
+    if let Some(shift) = &body.translate {
+        match dimension {
+            Some(dimension) => vector(
+                &at("translate"),
+                &format!("{called}: translate"),
+                shift,
+                dimension,
+            )?,
+            None => finite(&at("translate"), &format!("{called}: translate"), shift)?,
+        }
+    }
+    Ok(())
+}
+
+fn check_shape(shape: &Shape, called: &str, at: &[Key]) -> Checked {
+    let within = |name| {
+        let mut keys = at.to_vec();
+        keys.extend([Key::Name(shape.name()), Key::Name(name)]);
+        keys
+    };
+    let label = |name: &str| format!("{called}: {}.{name}", shape.name());
+    if let Shape::Box { min, .. } = shape
+        && min.len() != 2
+        && min.len() != 3
+    {
+        return fault(
+            &within("min"),
+            format!(
+                "{} has {} entries; write two (2-D) or three (3-D)",
+                label("min"),
+                min.len()
+            ),
+        );
+    }
+    for (name, values) in shape.vectors() {
+        vector(
+            &within(name),
+            &label(name),
+            values,
+            shape.dimension().unwrap_or(3),
+        )?;
+        if name == "semi_axes" {
+            for &value in values {
+                positive(&within(name), &label(name), value)?;
+            }
+        }
+    }
+    for (name, value) in shape.lengths() {
+        positive(&within(name), &label(name), value)?;
+    }
+    match shape {
+        Shape::Box { min, max } => {
+            for (axis, (low, high)) in min.iter().zip(max).enumerate() {
+                if low >= high {
+                    return fault(
+                        &within("max"),
+                        format!(
+                            "{}[{axis}] is {high}, not above min[{axis}], which is {low}; make it larger",
+                            label("max")
+                        ),
+                    );
+                }
+            }
+        }
+        Shape::Polygon { points } => {
+            for (index, point) in points.iter().enumerate() {
+                let mut keys = within("points");
+                keys.push(Key::Index(index));
+                vector(&keys, &format!("{}[{index}]", label("points")), point, 2)?;
+            }
+        }
+        Shape::File(path) if path.as_os_str().is_empty() => {
+            return fault(
+                at,
+                format!("{called}: file is empty; write the name of an STL or CSV file"),
+            );
+        }
+        _ => {}
+    }
+    Ok(())
+}

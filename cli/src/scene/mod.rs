@@ -1,0 +1,308 @@
+//! Scenes: what a person writes down to be packed.
+
+mod check;
+mod method;
+mod named;
+mod nearest;
+mod parse;
+mod shape;
+mod template;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use sphpack_kernels::KernelKind;
+use sphpack_packing::{Hybrid, Kind, Lattice};
+
+pub use check::Fault;
+pub use method::{METHODS, Method, MethodInfo};
+pub use named::Inset;
+pub(crate) use named::kernel_by_name;
+pub(crate) use nearest::advice;
+pub use shape::{SHAPES, Shape, ShapeInfo};
+pub use template::TEMPLATE;
+
+/// Bodies in a box, and how to pack them. Written as TOML; every field has the meaning of its key there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// The name in titles and of files: the scene file's, without its ending.
+    #[serde(skip)]
+    pub name: String,
+    /// The scene's file; other paths are relative to its folder.
+    #[serde(skip)]
+    pub path: PathBuf,
+    /// ∆s, scene units.
+    pub spacing: f64,
+    /// The box.
+    pub domain: DomainSpec,
+    /// The bodies.
+    #[serde(default)]
+    pub body: Vec<BodySpec>,
+    /// What is between them.
+    #[serde(default)]
+    pub fluid: FluidSpec,
+    /// How to pack.
+    #[serde(default)]
+    pub packing: PackingSpec,
+    /// How the result is judged.
+    #[serde(default)]
+    pub quality: QualitySpec,
+    /// What is written.
+    #[serde(default)]
+    pub output: OutputSpec,
+}
+
+/// The box: either `min` and `max`, or a `margin` around the bodies.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DomainSpec {
+    /// Lower corner, scene units.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min: Option<Vec<f64>>,
+    /// Upper corner, scene units.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max: Option<Vec<f64>>,
+    /// From the box around the bodies to the sides, scene units.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub margin: Option<f64>,
+    /// Which axes wrap around; none where left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub periodic: Option<Vec<bool>>,
+}
+
+/// What a body is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Role {
+    /// Its inside is filled with solid particles.
+    #[default]
+    Solid,
+    /// Its inside is the domain, as in a tank: what is outside is left out of the output, boundary particles are its
+    /// wall.
+    Container,
+    /// Its inside is left out of the output.
+    Void,
+}
+
+/// A body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodySpec {
+    /// The name in files and reports; "body", "body 2", … where left out.
+    #[serde(default)]
+    pub name: String,
+    /// The true body.
+    pub shape: Shape,
+    /// Factor on all lengths, first.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// 2-D: counter-clockwise rotation about the origin, second.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotate_degrees: Option<f64>,
+    /// 3-D: rotation about an axis through the origin, second.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotate: Option<Rotation>,
+    /// Shift, last, scene units.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub translate: Option<Vec<f64>>,
+    /// What it is for.
+    #[serde(default)]
+    pub role: Role,
+    /// Physical density; mass = density × volume.
+    #[serde(default = "one")]
+    pub density: f64,
+    /// Where its boundary particles sit.
+    #[serde(default)]
+    pub surface: Inset,
+}
+
+/// A rotation in space.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rotation {
+    /// Direction of the axis, of any length.
+    pub axis: Vec<f64>,
+    /// Angle, right-hand rule.
+    pub degrees: f64,
+}
+
+/// What is between the bodies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FluidSpec {
+    /// Physical density.
+    pub density: f64,
+    /// Whether fluid particles are written.
+    pub fill: bool,
+}
+
+impl Default for FluidSpec {
+    fn default() -> Self {
+        Self {
+            density: 1.0,
+            fill: true,
+        }
+    }
+}
+
+/// How the free particles are left at the end, by methods that minimise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Finish {
+    /// A weak repulsion keeps pairs apart.
+    #[default]
+    Even,
+    /// No repulsion at the end: zero-order consistent.
+    Consistent,
+}
+
+/// How frozen particles are arranged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Frozen {
+    /// The lattice of the inside, continued.
+    #[default]
+    Lattice,
+    /// A square or simple cubic ring, as 001 draws it.
+    Square,
+}
+
+/// How to pack.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PackingSpec {
+    /// The method.
+    pub method: Method,
+    /// The kernel that packs.
+    #[serde(with = "named::kernel")]
+    pub kernel: KernelKind,
+    /// Its smoothing length over ∆s.
+    pub h_over_spacing: f64,
+    /// The starting lattice; `None` is "auto".
+    #[serde(with = "named::lattice")]
+    pub lattice: Option<Lattice>,
+    /// The arrangement of frozen particles.
+    pub frozen: Frozen,
+    /// Methods that damp stop where u_max ∆t/h falls below this.
+    pub velocity_tolerance: f64,
+    /// Methods that minimise stop where the largest residual falls below this.
+    pub residual_tolerance: f64,
+    /// The finish of methods that minimise.
+    pub finish: Finish,
+    /// Give up after this many.
+    pub max_iterations: usize,
+    /// For methods that draw random numbers.
+    pub seed: u64,
+}
+
+impl Default for PackingSpec {
+    fn default() -> Self {
+        let hybrid = Hybrid::default();
+        Self {
+            method: Method::default(),
+            kernel: KernelKind::Quintic,
+            h_over_spacing: 1.2,
+            lattice: None,
+            frozen: Frozen::default(),
+            velocity_tolerance: hybrid.velocity_tolerance,
+            residual_tolerance: 1e-3,
+            finish: Finish::default(),
+            max_iterations: hybrid.max_iterations,
+            seed: 0,
+        }
+    }
+}
+
+/// How the result is judged; as packed where left out.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct QualitySpec {
+    /// The kernel that measures.
+    #[serde(with = "named::optional_kernel")]
+    pub kernel: Option<KernelKind>,
+    /// Its smoothing length over ∆s.
+    pub h_over_spacing: Option<f64>,
+}
+
+/// What is written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct OutputSpec {
+    /// Names of the kinds of particles in the files.
+    pub include: Vec<String>,
+}
+
+impl Default for OutputSpec {
+    fn default() -> Self {
+        Self {
+            include: Kind::ALL.map(|kind| kind.name().to_owned()).to_vec(),
+        }
+    }
+}
+
+impl Scene {
+    /// A scene of one body from a file, in a box with a margin around it (scene units).
+    pub fn of_body(file: &Path, spacing: f64, margin: f64) -> Self {
+        let name = file.file_stem().map_or_else(
+            || "body".to_owned(),
+            |stem| stem.to_string_lossy().into_owned(),
+        );
+        Self {
+            path: file.to_owned(),
+            spacing,
+            domain: DomainSpec {
+                margin: Some(margin),
+                ..DomainSpec::default()
+            },
+            body: vec![BodySpec {
+                name: name.chars().filter(|c| !c.is_control()).collect(),
+                shape: Shape::File(
+                    file.file_name()
+                        .map_or_else(|| file.to_owned(), PathBuf::from),
+                ),
+                scale: 1.0,
+                rotate_degrees: None,
+                rotate: None,
+                translate: None,
+                role: Role::Solid,
+                density: 1.0,
+                surface: Inset::default(),
+            }],
+            name,
+            fluid: FluidSpec::default(),
+            packing: PackingSpec::default(),
+            quality: QualitySpec::default(),
+            output: OutputSpec::default(),
+        }
+    }
+
+    /// A path of the scene, as seen from the working directory.
+    pub fn resolve(&self, path: &Path) -> PathBuf {
+        match self.path.parent() {
+            Some(folder) => folder.join(path),
+            None => path.to_owned(),
+        }
+    }
+
+    /// The kernel and h/∆s that judge the result.
+    pub fn judge(&self) -> (KernelKind, f64) {
+        (
+            self.quality.kernel.unwrap_or(self.packing.kernel),
+            self.quality
+                .h_over_spacing
+                .unwrap_or(self.packing.h_over_spacing),
+        )
+    }
+
+    /// Whether the files hold particles of a kind.
+    pub fn includes(&self, kind: Kind) -> bool {
+        self.output.include.iter().any(|name| name == kind.name())
+    }
+}
+
+fn one() -> f64 {
+    1.0
+}

@@ -1,0 +1,55 @@
+//! The scene that `sphpack init` writes.
+
+/// A commented scene with every key; it packs as it is.
+pub const TEMPLATE: &str = r#"# A scene for sphpack: bodies in a box, to be filled with evenly spread particles.
+# Pack it with: sphpack pack THIS_FILE
+# Keys that are commented out have the value shown, unless said otherwise. Lengths are in one unit of your choice.
+
+spacing = 0.1                    # the particle spacing: the square (cube) root of a particle's area (volume)
+
+[domain]                         # the box; two numbers for 2-D, three for 3-D
+min = [-2.0, -2.0]
+max = [2.0, 2.0]
+# margin = 0.8                   # instead of min and max: a box around the bodies, this far from them (no default)
+# periodic = [false, false]      # axes that wrap around
+
+[[body]]                         # as many as you like; a particle belongs to the first that holds it
+name = "cylinder"
+shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
+# Other shapes (`sphpack list shapes`):
+# shape = { polygon = { points = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]] } }
+# shape = { naca = { digits = "0015", chord = 1.0 } }
+# shape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }
+# shape = { file = "body.stl" }  # a closed mesh (.stl, 3-D) or an outline (.csv: rows of x,y); relative to this file
+# scale = 1.0                    # the body is scaled, then turned, then moved, about the origin
+# rotate_degrees = 0.0           # 2-D, counter-clockwise
+# rotate = { axis = [0.0, 0.0, 1.0], degrees = 0.0 }   # 3-D
+# translate = [0.0, 0.0]
+# role = "solid"                 # solid | container (its inside is the domain: a tank) | void (no particles inside)
+# density = 1.0                  # mass of a particle = density x volume
+# surface = "inset"              # boundary particles half a spacing inside ("inset"), on the surface ("exact"),
+                                 # or a number: how far inside, in spacings
+
+[fluid]                          # what is between the bodies
+# density = 1.0
+# fill = true                    # false: write the bodies only
+
+[packing]
+# method = "hybrid"              # `sphpack list methods`
+# kernel = "quintic"             # `sphpack list kernels`
+# h_over_spacing = 1.2           # smoothing length over spacing
+# lattice = "auto"               # the start: `sphpack list lattices`
+# frozen = "lattice"             # particles outside the box: the lattice continued, or a "square" ring
+# velocity_tolerance = 1e-4      # stop here (methods that damp: hybrid)
+# residual_tolerance = 1e-3      # stop here (methods that minimise)
+# finish = "even"                # methods that minimise: even | consistent
+# max_iterations = 20000
+# seed = 0                       # for methods that draw random numbers
+
+[quality]                        # how the result is judged; left out: by the kernel that packed
+# kernel = "quintic"
+# h_over_spacing = 1.2
+
+[output]
+# include = ["free", "boundary", "fixed", "frozen"]   # kinds of particles in the files
+"#;

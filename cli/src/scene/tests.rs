@@ -1,0 +1,298 @@
+//! Scenes that are right, and messages for those that are not.
+
+use super::*;
+use crate::Error;
+
+const GOOD: &str = r#"
+spacing = 0.1
+[domain]
+min = [-2.0, -2.0]
+max = [2, 2]
+[[body]]
+name = "cylinder"
+shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
+"#;
+
+#[track_caller]
+fn parse(text: &str) -> Scene {
+    Scene::parse(text, "folder/good.toml").unwrap()
+}
+
+/// The message for `text`, which must name the file, the line and every part.
+#[track_caller]
+fn refuse(text: &str, line: usize, parts: &[&str]) {
+    match Scene::parse(text, "bad.toml") {
+        Ok(scene) => panic!("accepted: {scene:?}"),
+        Err(error) => {
+            let message = error.to_string();
+            assert!(
+                matches!(error, Error::Scene { .. }) && error.status() == 2,
+                "{message}"
+            );
+            assert!(
+                message.starts_with(&format!("bad.toml:{line}:")),
+                "{message} (line {line})"
+            );
+            for part in parts {
+                assert!(message.contains(part), "{message} lacks {part}");
+            }
+        }
+    }
+}
+
+#[test]
+fn defaults_are_filled_in() {
+    let scene = parse(GOOD);
+    assert_eq!(scene.name, "good");
+    assert_eq!(scene.packing, PackingSpec::default());
+    assert_eq!(scene.body[0].surface, Inset(0.5));
+    assert_eq!(scene.judge(), (KernelKind::Quintic, 1.2));
+    assert!(Kind::ALL.into_iter().all(|kind| scene.includes(kind)));
+    assert_eq!(
+        scene.resolve(Path::new("body.stl")),
+        Path::new("folder/body.stl")
+    );
+}
+
+#[test]
+fn the_template_packs_and_knows_every_key() {
+    assert_eq!(parse(TEMPLATE).body.len(), 1);
+    // Every key that a serialised scene has stands in the template.
+    let json = serde_json::to_value(parse(TEMPLATE)).unwrap();
+    for table in ["fluid", "packing", "quality", "output"] {
+        for key in json[table].as_object().unwrap().keys() {
+            assert!(TEMPLATE.contains(&format!("{key} = ")), "{table}.{key}");
+        }
+    }
+    // And with its comments off it is still a scene.
+    let whole: String = TEMPLATE
+        .lines()
+        .filter(|line| {
+            ![
+                "# margin",
+                "# shape",
+                "# rotate =",
+                "# Pack",
+                "# Keys",
+                "# Other",
+                "# A ",
+            ]
+            .iter()
+            .any(|start| line.starts_with(start))
+        })
+        .map(|line| line.strip_prefix("# ").unwrap_or(line).to_owned() + "\n")
+        .collect();
+    let scene = parse(&whole);
+    assert_eq!(scene.packing, PackingSpec::default());
+    assert_eq!(scene.domain.periodic, Some(vec![false, false]));
+}
+
+#[test]
+fn everything_of_the_format_is_read() {
+    let scene = parse(
+        r#"
+spacing = 0.05
+domain = { margin = 0.5 }
+[[body]]
+shape = { file = "tank.stl" }
+role = "container"
+scale = 10
+rotate = { axis = [0, 0, 1], degrees = 17.0 }
+translate = [0.0, 1.0, 2.0]
+density = 2.5
+surface = "exact"
+[[body]]
+shape = { torus = { center = [0, 0, 0], axis = [0, 0, 1], major = 1, minor = 0.3 } }
+role = "void"
+surface = 0.25
+[fluid]
+density = 0.9
+fill = false
+[packing]
+method = "hybrid"
+kernel = "wendland-c2"
+h_over_spacing = 1.3
+lattice = "fcc"
+frozen = "square"
+velocity_tolerance = 1e-5
+residual_tolerance = 1e-4
+finish = "even"
+max_iterations = 7
+seed = 3
+[quality]
+kernel = "cubic"
+h_over_spacing = 2
+[output]
+include = ["free", "boundary"]
+"#,
+    );
+    assert_eq!(scene.body[0].name, "body");
+    assert_eq!(scene.body[1].name, "body 2");
+    assert_eq!(scene.body[0].surface, Inset(0.0));
+    assert_eq!(scene.body[1].surface, Inset(0.25));
+    assert_eq!(scene.body[0].role, Role::Container);
+    assert_eq!(scene.packing.lattice, Some(Lattice::Fcc));
+    assert_eq!(scene.packing.frozen, Frozen::Square);
+    assert_eq!(scene.judge(), (KernelKind::Cubic, 2.0));
+    assert!(!scene.includes(Kind::Frozen));
+}
+
+#[test]
+fn a_scene_survives_json() {
+    let scene = parse(GOOD);
+    let json = serde_json::to_string(&scene).unwrap();
+    let again: Scene =
+        serde_json::from_str(&json.replace("\"kernel\":null", "\"kernel\":\"quintic\"")).unwrap();
+    assert_eq!(again.body, scene.body);
+    assert_eq!(again.packing, scene.packing);
+}
+
+#[test]
+fn unknown_names_offer_the_nearest() {
+    let with = |from: &str, to: &str| GOOD.replace(from, to);
+    refuse(
+        &with("spacing", "spacng"),
+        2,
+        &["unknown key \"spacng\"", "did you mean \"spacing\"?"],
+    );
+    refuse(&with("name =", "nmae ="), 7, &["did you mean \"name\"?"]);
+    refuse(
+        &with("{ circle", "{ cirlce"),
+        8,
+        &[
+            "unknown name \"cirlce\"",
+            "did you mean \"circle\"?",
+            "torus",
+        ],
+    );
+    refuse(&with("radius", "raduis"), 8, &["did you mean \"radius\"?"]);
+    let packing = |line: &str| format!("{GOOD}[packing]\n{line}\n");
+    refuse(
+        &packing("kernel = \"quintc\""),
+        10,
+        &[
+            "no kernel is called \"quintc\"",
+            "\"quintic\"?",
+            "wendland-c6",
+        ],
+    );
+    refuse(
+        &packing("lattice = \"hexagon\""),
+        10,
+        &["\"hexagonal\"?", "auto"],
+    );
+    refuse(&packing("method = \"hybird\""), 10, &["\"hybrid\"?"]);
+    refuse(&packing("finish = \"evn\""), 10, &["\"even\"?"]);
+    refuse(
+        &packing("epsilon = 1"),
+        10,
+        &["unknown key \"epsilon\"", "velocity_tolerance"],
+    );
+    refuse(&format!("{GOOD}role = \"tank\""), 9, &["container", "void"]);
+    refuse(
+        &format!("{GOOD}[output]\ninclude = [\"fre\"]"),
+        10,
+        &["\"free\"?"],
+    );
+    refuse(&format!("{GOOD}[fluids]"), 9, &["did you mean \"fluid\"?"]);
+}
+
+#[test]
+fn numbers_out_of_range_are_named() {
+    let with = |from: &str, to: &str| GOOD.replace(from, to);
+    for bad in ["0", "-0.1", "nan", "inf"] {
+        refuse(
+            &with("spacing = 0.1", &format!("spacing = {bad}")),
+            2,
+            &["spacing is", "positive"],
+        );
+    }
+    refuse(
+        &with("max = [2, 2]", "max = [2, -3]"),
+        5,
+        &["domain.max[1] is -3", "larger"],
+    );
+    refuse(
+        &with("max = [2, 2]", "max = [2, 2, 2]"),
+        5,
+        &["domain.max has 3 entries"],
+    );
+    refuse(
+        &with("min = [-2.0, -2.0]", "min = [-2.0]"),
+        4,
+        &["two (2-D) or three (3-D)"],
+    );
+    refuse(
+        &with("max = [2, 2]", "max = [2, 2]\nmargin = 1"),
+        6,
+        &["either margin"],
+    );
+    refuse(
+        &with("max = [2, 2]", "max = [2, 2]\nperiodic = [true]"),
+        6,
+        &["periodic has 1 entries"],
+    );
+    refuse(
+        &with("radius = 1.0", "radius = -1.0"),
+        8,
+        &["circle.radius is -1", "cylinder"],
+    );
+    refuse(
+        &with("center = [0.0, 0.0]", "center = [0.0, 0.0, 1.0]"),
+        8,
+        &["circle.center has 3 entries"],
+    );
+    refuse(
+        &with("circle", "sphere"),
+        8,
+        &["sphere.center has 2 entries; it needs 3"],
+    );
+    refuse(
+        &with(
+            "circle = { center = [0.0, 0.0]",
+            "sphere = { center = [0.0, 0.0, 0.0]",
+        ),
+        8,
+        &["3-dimensional", "the domain is 2-dimensional"],
+    );
+    for (line, part) in [
+        ("scale = 0", "scale is 0"),
+        ("density = -1", "density is -1"),
+        ("surface = -0.5", "\"inset\", \"exact\""),
+        ("surface = \"insert\"", "\"inset\", \"exact\""),
+        ("rotate = { axis = [0, 0, 0], degrees = 1 }", "axis is zero"),
+        (
+            "rotate = { axis = [0, 0, 1], degrees = 1 }",
+            "rotate_degrees = 1",
+        ),
+        ("translate = [1]", "translate has 1 entries"),
+        ("scale = \"big\"", "string \"big\""),
+    ] {
+        refuse(&format!("{GOOD}{line}"), 9, &[part]);
+    }
+    for (line, part) in [
+        ("h_over_spacing = 20", "between 0.5 and 5"),
+        ("velocity_tolerance = 0", "velocity_tolerance is 0"),
+        ("max_iterations = -1", "-1"),
+        ("method = \"balanced\"", "not in this version"),
+        ("finish = \"consistent\"", "finish = \"even\""),
+    ] {
+        refuse(&format!("{GOOD}[packing]\n{line}"), 10, &[part]);
+    }
+    refuse(
+        &format!(
+            "{GOOD}[[body]]\nname = \"cylinder\"\nshape = {{ naca = {{ digits = \"0015\", chord = 1 }} }}"
+        ),
+        10,
+        &["both called"],
+    );
+}
+
+#[test]
+fn broken_text_is_located() {
+    refuse("spacing = \n", 1, &[]);
+    refuse("spacing = 0.1\n[domain\n", 2, &[]);
+    refuse("[domain]\nmargin = 1", 1, &["\"spacing\" is missing"]);
+    refuse("spacing = 1\n[domain]\nmargin = 1", 3, &["[[body]]"]);
+    refuse("spacing = 1\n[domain]\n", 2, &["domain needs min and max"]);
+}
