@@ -191,7 +191,7 @@ where
     let estimate = problem.estimate().map_err(fail)?;
     judged(&problem, scene).check().map_err(fail)?;
     let particles = estimate.particles + estimate.frozen;
-    if estimate.memory_bytes > allowed_bytes || !(particles < MAX_PARTICLES) {
+    if estimate.memory_bytes > allowed_bytes || particles >= MAX_PARTICLES || particles.is_nan() {
         return Err(fail(PackingError::TooLarge {
             particles,
             needed_bytes: estimate.memory_bytes,

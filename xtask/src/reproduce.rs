@@ -81,7 +81,11 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
              The hybrid method with its defaults, no tuning per shape{}. Regenerate with\n\
              `cargo xtask reproduce-paper --data DIR --write`, where DIR holds `bunny.stl`.\n\
              Densities are dimensionless, times are wall-clock seconds and depend on the machine.\n\n{table}",
-            if settings.quick { " (the quick rows only)" } else { "" }
+            if settings.quick {
+                " (the quick rows only)"
+            } else {
+                ""
+            }
         );
         fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
     }

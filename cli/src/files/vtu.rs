@@ -8,6 +8,9 @@ use sphpack_separation::Side;
 
 use crate::table::Table;
 
+/// Appends the bytes of one row's entry.
+type Entry<'a> = Box<dyn Fn(usize, &mut Vec<u8>) + 'a>;
+
 /// One array of the file.
 struct Array<'a> {
     name: &'static str,
@@ -17,7 +20,7 @@ struct Array<'a> {
     /// Bytes of one entry.
     size: usize,
     /// Entry `i`, little-endian.
-    entry: Box<dyn Fn(usize, &mut Vec<u8>) + 'a>,
+    entry: Entry<'a>,
 }
 
 impl<'a> Array<'a> {

@@ -1,0 +1,174 @@
+//! Body files that cannot be packed.
+
+use crate::{Desk, cube, stl, text_stl};
+
+/// A body file that must be refused with these words.
+#[track_caller]
+fn refuse(name: &str, content: impl AsRef<[u8]>, parts: &[&str]) {
+    let desk = Desk::new().with(name, content);
+    let mut all = vec![name];
+    all.extend(parts);
+    desk.refuse(&["pack", name, "--spacing", "0.2"], &all);
+}
+
+#[test]
+fn missing_files() {
+    for name in [
+        "nothing.stl",
+        "nothing.csv",
+        "nothing.toml",
+        "no/folder.stl",
+    ] {
+        Desk::new().refuse(
+            &["pack", name, "--spacing", "0.2"],
+            &[name, "no such file", "check the name"],
+        );
+    }
+    let desk = Desk::new();
+    desk.refuse(&["pack", ".", "--spacing", "0.2"], &["not a file"]);
+}
+
+#[test]
+fn stl_files() {
+    let whole = stl(&cube());
+    refuse("empty.stl", "", &["empty", "export"]);
+    refuse(
+        "cut.stl",
+        &whole[..whole.len() - 30],
+        &["cut off", "export"],
+    );
+    refuse("head.stl", &whole[..50], &["no STL file", "export"]);
+    let mut lying = whole.clone();
+    lying[80..84].copy_from_slice(&4_000_000_000_u32.to_le_bytes());
+    refuse("lying.stl", &lying, &["STL", "export"]);
+    lying[80..84].copy_from_slice(&5_u32.to_le_bytes());
+    refuse("short.stl", &lying, &["5 triangles", "export"]);
+    lying[80..84].copy_from_slice(&0_u32.to_le_bytes());
+    refuse("none.stl", &lying, &["triangles", "export"]);
+    for bad in [f32::NAN, f32::INFINITY] {
+        let mut triangles = cube();
+        triangles[3][1][2] = bad;
+        refuse(
+            "nan.stl",
+            stl(&triangles),
+            &["not a finite number", "correct"],
+        );
+        refuse("nan-text.stl", text_stl(&triangles), &[""]);
+    }
+    let mut open = cube();
+    open.pop();
+    refuse("open.stl", stl(&open), &["not closed", "close the holes"]);
+    refuse(
+        "open-text.stl",
+        text_stl(&open),
+        &["not closed", "close the holes"],
+    );
+    let mut flipped = cube();
+    flipped[4].swap(0, 1);
+    refuse(
+        "flipped.stl",
+        stl(&flipped),
+        &["opposite ways", "consistent"],
+    );
+    let flat: Vec<_> = cube()
+        .iter()
+        .map(|t| t.map(|[x, y, _]| [x, y, 0.0]))
+        .collect();
+    refuse("flat.stl", stl(&flat), &[""]);
+    let text = text_stl(&cube());
+    refuse("cut-text.stl", &text[..text.len() / 2], &["export"]);
+    refuse("words.stl", "solid nonsense\nfacet\n", &["export"]);
+    refuse("garbage.stl", [7; 1000], &["STL", "export"]);
+}
+
+#[test]
+fn outline_files() {
+    refuse("empty.csv", "", &["0 different points", "at least 3"]);
+    refuse("two.csv", "x,y\n0,0\n1,1\n", &["2 different points"]);
+    refuse("line.csv", "0,0\n1,1\n2,2\n", &["area"]);
+    refuse(
+        "nan.csv",
+        "0,0\n1,0\n1,nan\n0,1\n",
+        &[":", "finite numbers"],
+    );
+    refuse("cut.csv", "0,0\n1,0\n1,1\n0.", &["line 4", "two numbers"]);
+    refuse(
+        "words.csv",
+        "x,y\n0,0\n1,zero\n1,1\n",
+        &["line 3", "decimal points"],
+    );
+    refuse(
+        "bow-tie.csv",
+        "0,0\n2,2\n2,0\n0,1\n",
+        &["meets itself", "move or remove"],
+    );
+    refuse("binary.csv", [200, 1, 2, 3, 200], &["text"]);
+}
+
+#[test]
+fn other_formats_say_what_to_do() {
+    refuse(
+        "body.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        &["OBJ files are not read yet", "STL"],
+    );
+    refuse(
+        "body.ply",
+        "ply\nformat ascii 1.0\n",
+        &["PLY files are not read yet", "STL"],
+    );
+    refuse(
+        "slat.dat",
+        "0 0\n1 0\n0 1\n",
+        &[".dat files are not read yet", ".csv"],
+    );
+    refuse(
+        "body.step",
+        "ISO-10303-21;\n",
+        &["neither", "export the body as .stl or .csv"],
+    );
+}
+
+#[test]
+fn spacings_and_sizes() {
+    let desk = Desk::new()
+        .with("cube.stl", stl(&cube()))
+        .with("square.csv", "0,0\n1,0\n1,1\n0,1\n");
+    for body in ["cube.stl", "square.csv"] {
+        for (spacing, part) in [
+            ("0", "--spacing is 0"),
+            ("-0.1", "--spacing is -0.1"),
+            ("nan", "--spacing is NaN"),
+            ("inf", "--spacing is inf"),
+            ("5", "larger than body"),
+            ("1e-7", "larger spacing"),
+            ("1e-200", ""),
+            ("1e200", ""),
+        ] {
+            desk.refuse(&["pack", body, "--spacing", spacing], &[part]);
+        }
+        desk.refuse(&["pack", body], &[body, "--spacing LENGTH"]);
+        desk.refuse(
+            &["pack", body, "--spacing", "0.1", "--margin", "-1"],
+            &["--margin is -1"],
+        );
+        desk.refuse(
+            &["pack", body, "--spacing", "0.1", "--scale", "0"],
+            &["--scale is 0"],
+        );
+        desk.refuse(
+            &["pack", body, "--spacing", "0.1", "--scale", "1e300"],
+            &[""],
+        );
+        desk.refuse(
+            &["pack", body, "--spacing", "0.1", "--method", "hybird"],
+            &["did you mean \"hybrid\"?"],
+        );
+    }
+    // Moved inward by half a spacing, nothing of a thin body is left.
+    let thin = Desk::new().with("thin.csv", "0,0\n1,0\n1,0.05\n0,0.05\n");
+    thin.refuse(
+        &["pack", "thin.csv", "--spacing", "0.2"],
+        &["thin", "smaller spacing"],
+    );
+}

@@ -1,0 +1,164 @@
+//! Scenes that make no sense.
+
+use crate::{CYLINDER, Desk, cube, stl};
+
+/// The small cylinder with something changed must be refused with these words.
+#[track_caller]
+fn refuse(from: &str, to: &str, parts: &[&str]) {
+    assert!(CYLINDER.contains(from), "{from}");
+    let desk = Desk::new().with("scene.toml", CYLINDER.replacen(from, to, 1));
+    let mut all = vec!["scene.toml"];
+    all.extend(parts);
+    desk.refuse(&["pack", "scene.toml"], &all);
+}
+
+#[test]
+fn unknown_words_are_located() {
+    refuse(
+        "spacing",
+        "spacng",
+        &["scene.toml:1:1", "did you mean \"spacing\"?"],
+    );
+    refuse(
+        "circle",
+        "circel",
+        &["scene.toml:7:", "did you mean \"circle\"?"],
+    );
+    refuse(
+        "velocity_tolerance",
+        "velocity",
+        &["scene.toml:9:", "velocity_tolerance"],
+    );
+    refuse(
+        "[packing]",
+        "[packing]\nkernel = \"quintik\"",
+        &["scene.toml:9:10", "did you mean \"quintic\"?"],
+    );
+    refuse(
+        "[packing]",
+        "[packing]\nmethod = \"coupled\"",
+        &["scene.toml:9:10", "not in this version", "hybrid"],
+    );
+    refuse("[packing]", "[packing", &["scene.toml:8:"]);
+}
+
+#[test]
+fn numbers_are_checked() {
+    for bad in ["0", "-1", "nan", "inf", "1e400"] {
+        refuse(
+            "spacing = 0.2",
+            &format!("spacing = {bad}"),
+            &["scene.toml:1:"],
+        );
+    }
+    refuse(
+        "spacing = 0.2",
+        "spacing = 3.0",
+        &["larger than body", "use a spacing below"],
+    );
+    refuse(
+        "spacing = 0.2",
+        "spacing = 1e-9",
+        &["GiB", "larger spacing"],
+    );
+    refuse(
+        "max = [2.0, 2.0]",
+        "max = [2.0, -2.0]",
+        &["scene.toml:4:", "domain.max[1]"],
+    );
+    refuse(
+        "max = [2.0, 2.0]",
+        "max = [0.5, 2.0]",
+        &["reaches outside the domain", "enlarge the domain"],
+    );
+    refuse("max = [2.0, 2.0]", "max = [1e300, 2.0]", &[""]);
+    refuse("max = [2.0, 2.0]", "max = [1e308, 1e308]", &[""]);
+    refuse(
+        "spacing = 0.2\n[domain]",
+        "spacing = 0.9\n[domain]\nperiodic = [true, false]",
+        &["periodic", "longer"],
+    );
+    refuse(
+        "[packing]",
+        "surface = 9.9\n[packing]",
+        &["cylinder", "nothing of the body is left"],
+    );
+    refuse(
+        "[packing]",
+        "[packing]\nlattice = \"fcc\"",
+        &["fcc", "3-dimensional"],
+    );
+    refuse(
+        "[packing]",
+        "[quality]\nh_over_spacing = 0\n[packing]",
+        &["quality.h_over_spacing"],
+    );
+}
+
+#[test]
+fn outlines_are_checked() {
+    let circle = "{ circle = { center = [0.0, 0.0], radius = 1.0 } }";
+    refuse(
+        circle,
+        "{ polygon = { points = [[0, 0], [1, 1], [1, 0], [0, 1]] } }",
+        &["meets itself"],
+    );
+    refuse(
+        circle,
+        "{ polygon = { points = [[0, 0], [1, 1]] } }",
+        &["2 different points"],
+    );
+    refuse(
+        circle,
+        "{ polygon = { points = [[0, 0], [1], [1, 0]] } }",
+        &["points[1] has 1 entries"],
+    );
+    refuse(
+        circle,
+        "{ naca = { digits = \"15\", chord = 1 } }",
+        &["cylinder", "four digits"],
+    );
+    refuse(
+        circle,
+        "{ starfish = { center = [0, 0], radius = 0.5, amplitude = 2, arms = 5 } }",
+        &["amplitude"],
+    );
+    refuse(circle, "{ file = \"nothing.csv\" }", &["nothing.csv"]);
+    refuse(
+        circle,
+        "{ sphere = { center = [0, 0, 0], radius = 1 } }",
+        &["3-dimensional"],
+    );
+}
+
+#[test]
+fn dimensions_of_files_must_agree() {
+    let desk = Desk::new().with("cube.stl", stl(&cube())).with(
+        "scene.toml",
+        CYLINDER.replace(
+            "{ circle = { center = [0.0, 0.0], radius = 1.0 } }",
+            "{ file = \"cube.stl\" }",
+        ),
+    );
+    desk.refuse(
+        &["pack", "scene.toml"],
+        &["scene.toml", "3-dimensional", "all must agree"],
+    );
+}
+
+#[test]
+fn files_that_are_no_scenes() {
+    for (content, part) in [
+        (&b""[..], "missing"),
+        (b"hello", "scene.toml:1:"),
+        (&[0xff, 0xfe, 0], "not text"),
+    ] {
+        let desk = Desk::new().with("scene.toml", content);
+        desk.refuse(&["pack", "scene.toml"], &["scene.toml", part]);
+    }
+    let desk = Desk::new().with("scene.toml", CYLINDER);
+    desk.refuse(
+        &["pack", "scene.toml", "--spacing", "0.1"],
+        &["--spacing", "set spacing in it"],
+    );
+}

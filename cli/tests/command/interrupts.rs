@@ -1,0 +1,81 @@
+//! Ctrl-C.
+#![cfg(unix)]
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+
+use serde_json::Value;
+
+use crate::{CYLINDER, Desk};
+
+/// A packing that would go on for long, at work.
+fn at_work(desk: &Desk) -> Child {
+    let mut child = desk
+        .command(&[
+            "pack",
+            "scene.toml",
+            "-o",
+            "out.csv",
+            "--report",
+            "out.json",
+        ])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let mut lines = BufReader::new(child.stderr.take().expect("piped")).lines();
+    let is_at_work = lines
+        .by_ref()
+        .map_while(Result::ok)
+        .any(|line| line.contains("evaluation"));
+    assert!(is_at_work, "progress is told");
+    // The rest must be read, or the command cannot go on talking.
+    std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
+    child
+}
+
+fn desk() -> Desk {
+    let endless = CYLINDER
+        .replace("1e-3", "1e-300\nmax_iterations = 1000000000")
+        .replace("spacing = 0.2", "spacing = 0.1");
+    Desk::new().with("scene.toml", endless)
+}
+
+fn interrupt(child: &Child) {
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .expect("kill is there");
+    assert!(sent.success());
+}
+
+#[test]
+fn the_first_writes_what_there_is() {
+    let desk = desk();
+    let mut child = at_work(&desk);
+    interrupt(&child);
+    assert_eq!(child.wait().expect("an end").code(), Some(130));
+    assert_eq!(desk.files(), ["out.csv", "out.json", "scene.toml"]);
+    let report: Value = serde_json::from_slice(&desk.read("out.json")).expect("JSON");
+    assert_eq!(report["converged"], false);
+    assert_eq!(report["stop_reason"], "interrupted");
+    let rows = desk.read("out.csv").iter().filter(|&&b| b == b'\n').count();
+    assert_eq!(report["particles"]["total"].as_u64(), Some(rows as u64 - 1));
+}
+
+#[test]
+fn the_second_ends_at_once() {
+    let desk = desk();
+    let mut child = at_work(&desk);
+    interrupt(&child);
+    let _ = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .stderr(Stdio::null())
+        .status();
+    assert_eq!(child.wait().expect("an end").code(), Some(130));
+    assert!(
+        desk.files().iter().all(|name| !name.starts_with('.')),
+        "{:?}",
+        desk.files()
+    );
+}
