@@ -80,7 +80,8 @@ pub(crate) fn dimension(scene: &Scene) -> Result<usize, Error> {
         let (dimension, what) = match body.shape.file() {
             Some(file) => {
                 let path = scene.resolve(file);
-                let kind = BodyFile::detect(&path)?;
+                let kind =
+                    BodyFile::detect(&path).map_err(|error| of_body(error, scene, &body.name))?;
                 let what = match kind {
                     BodyFile::Stl => "a mesh",
                     BodyFile::Csv => "an outline",
@@ -132,6 +133,22 @@ pub(crate) fn dimension(scene: &Scene) -> Result<usize, Error> {
             periodic.len()
         ))),
         _ => Ok(dimension),
+    }
+}
+
+/// The same error about a body's file, saying which body of which scene wants that file.
+fn of_body(error: Error, scene: &Scene, body: &str) -> Error {
+    match error {
+        // A body that was named on the command line needs no further introduction.
+        Error::Input { path, at, message } if path != scene.path => Error::Input {
+            path,
+            at,
+            message: format!(
+                "{message} (it is body \"{body}\" of {})",
+                scene.path.display()
+            ),
+        },
+        other => other,
     }
 }
 

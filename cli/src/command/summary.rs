@@ -131,16 +131,13 @@ fn packed(report: &Report) -> String {
         .map(|surface| surface.max_distance_over_spacing)
         .fold(0.0, f64::max);
     if report.surface.iter().any(|surface| surface.count > 0) {
-        let _ = match report.surface.as_slice() {
-            [one] => write!(
-                words,
-                ", every surface particle within {farthest:.0e} ∆s of its place on {}",
-                one.body
-            ),
-            _ => write!(
+        let _ = if farthest < 1e-9 {
+            write!(words, ", every surface particle on its surface")
+        } else {
+            write!(
                 words,
                 ", every surface particle within {farthest:.0e} ∆s of its surface"
-            ),
+            )
         };
     }
     words

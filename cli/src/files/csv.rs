@@ -1,5 +1,6 @@
 //! Particles as comma-separated text: a header, then one row per particle.
 
+use std::fmt;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -20,7 +21,7 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     )?;
     let names: Vec<String> = table.bodies.iter().map(|name| quoted(name)).collect();
     for i in 0..table.len() {
-        let [x, y, z] = table.position[i];
+        let [x, y, z] = table.position[i].map(Short);
         write!(to, "{},{x},{y}", table.id[i])?;
         if space {
             write!(to, ",{z}")?;
@@ -28,16 +29,16 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
         let body = table.body[i]
             .and_then(|b| names.get(usize::from(b)))
             .map_or("", String::as_str);
-        let [nx, ny, nz] = table.normal[i];
+        let [nx, ny, nz] = table.normal[i].map(Short);
         write!(
             to,
             ",{},{},{body},{},{},{},{},{nx},{ny}",
             table.kind[i].name(),
             table.side[i].name(),
-            table.volume[i],
-            table.mass[i],
-            table.gamma[i],
-            table.residual[i],
+            Short(table.volume[i]),
+            Short(table.mass[i]),
+            Short(table.gamma[i]),
+            Short(table.residual[i]),
         )?;
         if space {
             write!(to, ",{nz}")?;
@@ -45,6 +46,20 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
         writeln!(to)?;
     }
     Ok(())
+}
+
+/// A number as the shortest text that reads back to the same bits.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size != 0.0 && !(1e-5..1e16).contains(&size) {
+            write!(f, "{:e}", self.0)
+        } else {
+            write!(f, "{}", self.0)
+        }
+    }
 }
 
 /// A field in quotation marks where it needs them.

@@ -1,6 +1,7 @@
 //! Scenes: what a person writes down to be packed.
 
 mod check;
+mod check_body;
 mod method;
 mod named;
 mod nearest;

@@ -13,18 +13,14 @@ fn refuse(name: &str, content: impl AsRef<[u8]>, parts: &[&str]) {
 
 #[test]
 fn missing_files() {
-    for name in [
-        "nothing.stl",
-        "nothing.csv",
-        "nothing.toml",
-        "no/folder.stl",
-    ] {
+    for name in ["nothing.stl", "nothing.csv", "no/folder.stl"] {
         Desk::new().refuse(
             &["pack", name, "--spacing", "0.2"],
             &[name, "no such file", "check the name"],
         );
     }
     let desk = Desk::new();
+    desk.refuse(&["pack", "nothing.toml"], &["nothing.toml", "no such file"]);
     desk.refuse(&["pack", ".", "--spacing", "0.2"], &["not a file"]);
 }
 

@@ -1,3 +1,5 @@
+//! Insets of 3-D bodies against what is known of them.
+
 use std::sync::Arc;
 
 use proptest::prelude::*;

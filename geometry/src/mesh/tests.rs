@@ -1,3 +1,5 @@
+//! Meshes against brute force and against the shapes they stand for.
+
 use std::collections::HashMap;
 
 use proptest::prelude::*;

@@ -1,3 +1,5 @@
+//! Outlines against brute force, and the three inside tests against one another.
+
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;

@@ -1,3 +1,5 @@
+//! Analytic shapes against samples of themselves.
+
 use std::f64::consts::PI;
 use std::sync::Arc;
 
