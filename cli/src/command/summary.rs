@@ -146,7 +146,7 @@ fn packed(report: &Report) -> String {
 fn unfinished(report: &Report) -> Option<String> {
     match report.stop_reason {
         "converged" => None,
-        "interrupted" => Some("stopped by Ctrl-C; the files hold what there was".to_owned()),
+        "interrupted" => Some("interrupted; the files hold what there was".to_owned()),
         "iteration-limit" => Some(format!(
             "not converged in {} iterations; raise packing.max_iterations, or packing.velocity_tolerance",
             grouped(report.iterations)
