@@ -2,10 +2,7 @@
 
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, point};
-use sphpack_packing::{
-    Fields, FrozenLayout, Hybrid, Kind, Lattice, Observer, Packed, PackingError, Problem, Quality,
-    StopReason,
-};
+use sphpack_packing::{Fields, Hybrid, Kind, Observer, Packed, Problem, Quality, StopReason};
 use sphpack_separation::{Labels, Side};
 
 use crate::Error;
@@ -94,10 +91,7 @@ where
         loops,
         seconds: built,
     } = prepared;
-    let packed = pack(&problem, scene, observer).map_err(|source| Error::Packing {
-        path: scene.path.clone(),
-        source,
-    })?;
+    let packed = pack(&problem, scene, observer)?;
     let Sorted { labels, keep } = sort(&packed, scene)
         .map_err(|e| Error::System(format!("particles cannot be separated: {e}")))?;
     let fields = measure(&judged(&problem, scene), &problem, &packed);
@@ -123,20 +117,22 @@ fn pack<const D: usize>(
     problem: &Problem<D>,
     scene: &Scene,
     observer: &mut dyn Observer,
-) -> Result<Packed<D>, PackingError> {
+) -> Result<Packed<D>, Error> {
     match scene.packing.method {
-        // Scene::check has refused methods that are not there.
-        Method::Hybrid
-        | Method::Balanced
-        | Method::Standard
-        | Method::Coupled
-        | Method::Relaxation
-        | Method::Complex => Hybrid {
+        Method::Hybrid => Hybrid {
             velocity_tolerance: scene.packing.velocity_tolerance,
             max_iterations: scene.packing.max_iterations,
             ..Hybrid::default()
         }
-        .pack(problem, observer),
+        .pack(problem, observer)
+        .map_err(|source| Error::Packing {
+            path: scene.path.clone(),
+            source,
+        }),
+        other => Err(Error::System(format!(
+            "this version has no method \"{}\"",
+            other.name()
+        ))),
     }
 }
 
@@ -152,16 +148,11 @@ fn measure<const D: usize>(
         return packed.fields(kernel, judge.h_over_spacing);
     }
     let particles = &packed.particles;
-    let lattice = match (problem.frozen, D) {
-        (FrozenLayout::Lattice, _) => problem.chosen_lattice(),
-        (FrozenLayout::Square, 2) => Lattice::Square,
-        (FrozenLayout::Square, _) => Lattice::SimpleCubic,
-    };
     let there = problem.domain.bounds.grown(problem.frozen_depth());
-    let filling = lattice.fill(problem.domain.bounds, problem.spacing);
     let mut positions = particles.position.clone();
     positions.extend(
-        filling
+        packed
+            .frozen_lattice
             .continued(&problem.domain, judge.frozen_depth())
             .into_iter()
             .filter(|&p| !there.contains(p)),

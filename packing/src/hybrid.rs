@@ -12,7 +12,7 @@ use crate::packed::{Packed, Seconds, StopReason};
 use crate::particles::Kind;
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::{Repulsion, STRENGTH};
-use crate::seeding::{fix_corners, particle_surfaces, seed};
+use crate::seeding::{Seeds, fix_corners, particle_surfaces, seed};
 
 /// The hybrid method (001 §3.1, algorithms 1 and 2), with its constants.
 ///
@@ -87,7 +87,10 @@ impl Hybrid {
         progress.seconds = begin.elapsed().as_secs_f64();
         interrupted |= observer.progress(&progress).is_break();
         let seeding = Instant::now();
-        let mut particles = seed(problem)?;
+        let Seeds {
+            mut particles,
+            frozen_lattice,
+        } = seed(problem)?;
         fix_corners(&mut particles, &surfaces, problem.spacing);
         seconds.seeding = seeding.elapsed().as_secs_f64();
 
@@ -184,6 +187,7 @@ impl Hybrid {
             domain: problem.domain,
             spacing,
             lattice: problem.chosen_lattice(),
+            frozen_lattice,
             kernel: problem.kernel,
             h_over_spacing: problem.h_over_spacing,
             bodies: problem

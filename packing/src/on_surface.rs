@@ -1,6 +1,7 @@
 //! Particles that live on surfaces: capturing them and keeping them there.
 
 use rayon::prelude::*;
+use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
 
 use crate::packed::ParticleSurface;
@@ -11,10 +12,10 @@ use crate::particles::{Kind, Particles};
 pub struct OnSurface<const D: usize> {
     /// Particle indices, ascending.
     pub index: Vec<usize>,
-    /// The outward unit normal of the particle surface at each.
-    pub normal: Vec<[f64; D]>,
     /// Normals by particle, zero for those that are not on a surface.
     normal_of: Vec<[f64; D]>,
+    /// The last projection's answers, kept for their memory.
+    hits: Vec<Option<Closest<D>>>,
 }
 
 impl<const D: usize> OnSurface<D> {
@@ -35,26 +36,19 @@ impl<const D: usize> OnSurface<D> {
         surfaces: &[ParticleSurface<D>],
         reach: f64,
     ) {
-        let hits: Vec<_> = self
-            .index
+        self.index
             .par_iter()
             .with_min_len(64)
             .map(|&i| {
                 let surface = &surfaces[usize::from(particles.body[i].unwrap_or(0))].surface;
                 surface.closest_within(particles.position[i], reach)
             })
-            .collect();
-        self.normal.clear();
-        for (&i, hit) in self.index.iter().zip(hits) {
-            let normal = match hit {
-                Some(hit) => {
-                    particles.position[i] = hit.point;
-                    hit.normal
-                }
-                None => self.normal_of[i],
-            };
-            self.normal_of[i] = normal;
-            self.normal.push(normal);
+            .collect_into_vec(&mut self.hits);
+        for (&i, hit) in self.index.iter().zip(&self.hits) {
+            if let Some(hit) = hit {
+                particles.position[i] = hit.point;
+                self.normal_of[i] = hit.normal;
+            }
         }
     }
 

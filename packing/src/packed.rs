@@ -6,7 +6,7 @@ use sphpack_geometry::Surface;
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
-use crate::lattice::Lattice;
+use crate::lattice::{Filling, Lattice};
 use crate::observer::Sample;
 use crate::particles::Particles;
 
@@ -72,6 +72,8 @@ pub struct Packed<const D: usize> {
     pub spacing: f64,
     /// The lattice that it started from.
     pub lattice: Lattice,
+    /// The lattice that the frozen particles continue, and go on continuing beyond them.
+    pub frozen_lattice: Filling<D>,
     /// The kernel that packed.
     pub kernel: KernelKind,
     /// Its smoothing length over ∆s.

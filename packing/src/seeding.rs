@@ -14,7 +14,7 @@ const SITES_WORTH_A_SEARCH: u64 = 200_000;
 
 /// Shifts the lattice so that every body gets as many sites as its volume asks for, as closely as [`PHASES`] tries
 /// allow. The papers do not say where a lattice begins; on a lattice that shares the body's symmetry whole rings of
-/// sites fall in or out together, and the body's density with them (1.3 % for a cylinder R = 10 ∆s).
+/// sites fall in or out together, and the density inside the body with them.
 fn in_phase<const D: usize>(problem: &Problem<D>, filling: Filling<D>) -> Filling<D> {
     if filling.count() > SITES_WORTH_A_SEARCH || problem.bodies.is_empty() {
         return filling.shifted(phase(problem.seed));
@@ -61,17 +61,25 @@ fn phase<const D: usize>(n: u64) -> [f64; D] {
     std::array::from_fn(|k| (n * root.powi(-(k as i32 + 1))).fract())
 }
 
+/// Particles at the start.
+#[derive(Debug, Clone)]
+pub struct Seeds<const D: usize> {
+    /// Free particles in the box, frozen ones around it.
+    pub particles: Particles<D>,
+    /// The lattice that the frozen particles continue.
+    pub frozen_lattice: Filling<D>,
+}
+
 /// Fills the box with free particles on the problem's lattice, and surrounds it with frozen ones.
 ///
 /// # Errors
 /// Those of [`Problem::check`].
-pub fn seed<const D: usize>(problem: &Problem<D>) -> Result<Particles<D>, PackingError> {
+pub fn seed<const D: usize>(problem: &Problem<D>) -> Result<Seeds<D>, PackingError> {
     problem.check()?;
     let filling = in_phase(problem, problem.filling());
     let volume = filling.volume_per_site();
-    let depth = problem.frozen_depth();
-    let frozen = match problem.frozen {
-        FrozenLayout::Lattice => filling.continued(&problem.domain, depth),
+    let frozen_lattice = match problem.frozen {
+        FrozenLayout::Lattice => filling,
         FrozenLayout::Square => {
             let ring = if D == 2 {
                 Lattice::Square
@@ -79,17 +87,19 @@ pub fn seed<const D: usize>(problem: &Problem<D>) -> Result<Particles<D>, Packin
                 Lattice::SimpleCubic
             };
             ring.fill(problem.domain.bounds, problem.spacing)
-                .continued(&problem.domain, depth)
         }
     };
     let mut particles = Particles::default();
     for site in filling.sites() {
         particles.push(site, Kind::Free, volume, None);
     }
-    for site in frozen {
+    for site in frozen_lattice.continued(&problem.domain, problem.frozen_depth()) {
         particles.push(site, Kind::Frozen, volume, None);
     }
-    Ok(particles)
+    Ok(Seeds {
+        particles,
+        frozen_lattice,
+    })
 }
 
 /// The particle surface of every body: the true surface moved inward by its inset.

@@ -19,7 +19,7 @@ use crate::{
 fn shaken<const D: usize>(shake: f64, seed_value: u64) -> (Problem<D>, Particles<D>) {
     let domain = Domain::new([0.0; D], [1.0; D]);
     let problem = Problem::new(domain, if D == 2 { 0.12 } else { 0.2 });
-    let mut particles = seed(&problem).expect("a sound problem");
+    let mut particles = seed(&problem).expect("a sound problem").particles;
     let mut state = seed_value;
     for i in 0..particles.len() {
         if particles.kind[i] == Kind::Frozen {
@@ -113,7 +113,7 @@ fn a_perfect_lattice_stays() {
 fn check_stays<const D: usize>(lattice: Lattice) {
     let mut problem = Problem::new(Domain::new([0.0; D], [1.0; D]), 0.2);
     problem.lattice = Some(lattice);
-    let particles = seed(&problem).expect("a sound problem");
+    let particles = seed(&problem).expect("a sound problem").particles;
     let mut forces = Forces::of(&problem, Repulsion::none());
     forces.evaluate(&particles);
     for i in 0..particles.len() {
@@ -147,6 +147,26 @@ fn hybrid_packs_a_cylinder() {
     let mut ids = packed.particles.id.clone();
     ids.sort_unstable();
     assert!(ids.iter().copied().eq(0..packed.particles.len() as u32));
+}
+
+#[test]
+fn a_lattice_begins_where_the_body_gets_its_share() {
+    // A disc in the middle of the box has the lattice's symmetry: whole rings of sites fall in or out together.
+    for spacing in [0.1, 0.08, 0.06, 0.05, 0.04] {
+        let problem = cylinder(spacing);
+        let particles = seed(&problem).expect("a sound problem").particles;
+        let body = &problem.bodies[0].surface;
+        let inside = particles
+            .position
+            .iter()
+            .filter(|&&p| body.inside(p))
+            .count() as f64;
+        let share = body.volume() / particles.volume[0];
+        assert!(
+            (inside - share).abs() <= 1.0,
+            "∆s = {spacing}: {inside} sites for a share of {share}"
+        );
+    }
 }
 
 #[test]
