@@ -1,4 +1,4 @@
-//! Queries per second: closest points near the surface and inside tests, on a sphere mesh and a starfish.
+//! Queries per second: closest points near the surface, inside tests and even samples, on a sphere mesh and a starfish.
 #![allow(
     missing_docs,
     reason = "criterion's macros make an undocumented public function"
@@ -93,6 +93,16 @@ fn queries(c: &mut Criterion) {
         );
     });
     group.bench_function("starfish inset", |b| b.iter(|| outline.inset(0.025)));
+    group.finish();
+    let mut group = c.benchmark_group("sampling");
+    group.throughput(Throughput::Elements(2300));
+    group.sample_size(10);
+    let inset = mesh.inset(0.05).expect("a smaller sphere");
+    group.bench_function("mesh of 75k triangles, 2300 points", |b| {
+        b.iter(|| mesh.sample(2300));
+    });
+    group.bench_function("its inset, 2300 points", |b| b.iter(|| inset.sample(2300)));
+    group.bench_function("starfish, 2300 points", |b| b.iter(|| outline.sample(2300)));
     group.finish();
 }
 

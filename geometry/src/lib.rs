@@ -15,6 +15,10 @@
 //!
 //! let sphere = Ball::new([0.0; 3], 0.5)?;
 //! assert!((sphere.inset(0.1)?.measure() - 4.0 * std::f64::consts::PI * 0.16).abs() < 1e-12);
+//!
+//! // Evenly spread points, features first.
+//! let points = wing.sample(100)?;
+//! assert_eq!((points.len(), points[0].feature), (100, Feature::Corner));
 //! # Ok::<(), sphpack_geometry::GeometryError>(())
 //! ```
 //!
@@ -38,6 +42,7 @@ mod level_inset;
 mod mesh;
 mod outline;
 mod placed;
+mod sample;
 mod sampling;
 mod segment;
 mod shapes;

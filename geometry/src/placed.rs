@@ -102,4 +102,9 @@ impl<const D: usize> Surface<D> for Placed<D> {
             })?;
         Ok(Arc::new(Self::new(inner, self.place)))
     }
+
+    fn sample(&self, count: usize) -> Result<Vec<Closest<D>>, GeometryError> {
+        let hits = self.surface.sample(count)?;
+        Ok(hits.into_iter().map(|hit| self.forward(hit)).collect())
+    }
 }

@@ -79,6 +79,27 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
     /// [`GeometryError::Vanished`] where nothing of the body is left.
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError>;
 
+    /// `count` points spread evenly over the surface, features first: corners, then sharp edges evenly by arc length,
+    /// then the patches. Each is a [`Closest`] with distance 0: its point, the outward normal there, and what it
+    /// stands on.
+    ///
+    /// Exactly `count` points, of which features take theirs first. Features too near each other to have a particle
+    /// each share one: corners of a curve within half a mean spacing along it, corners and edge points in space within
+    /// 0.7; sharp edges that hang together and are shorter than two spacings in all count as smooth. Where there are
+    /// more features than points, some of them, evenly taken.
+    ///
+    /// Curves: exact by arc length between corners. Surfaces: sample elimination, then 60 steps down the energy of a
+    /// repulsion along the surface; nearest distances then vary by some 3 % (coefficient of variation), more where
+    /// the surface bends within a spacing. The same points for any number of threads, and scaled ones for a body
+    /// scaled by a power of two. O(n log n); 14,000 points on a mesh of 75,000 triangles take 0.8 s on one core, on
+    /// the inset of it 1.2 s.
+    ///
+    /// # Errors
+    /// [`GeometryError::BadParameter`] in other dimensions than 2 and 3, and where no area is found.
+    fn sample(&self, count: usize) -> Result<Vec<Closest<D>>, GeometryError> {
+        crate::sample::evenly(self, count)
+    }
+
     /// [`Surface::closest_within`] for many points, in parallel; entry `i` belongs to `points[i]`.
     fn closest_batch(&self, points: &[[f64; D]], radius: f64) -> Vec<Option<Closest<D>>> {
         points

@@ -128,7 +128,7 @@ fn add_box<const D: usize>(
 ///
 /// With all n_k > 0 and c the plane's place from the cube's lowest corner, the part is
 /// Σ ±max(c − n·v, 0)^D / (D! Π n_k) over the cube's corners v, and the area its derivative by c.
-fn cut<const D: usize>(normal: [f64; D], f: f64) -> (f64, f64) {
+pub(crate) fn cut<const D: usize>(normal: [f64; D], f: f64) -> (f64, f64) {
     // Below this slope the sum cancels; tilting the plane by so little changes nothing that counts.
     let n = normal.map(|x| x.abs().max(1e-3));
     let n = point::unit(n).unwrap_or(n);

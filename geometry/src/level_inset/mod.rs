@@ -1,6 +1,7 @@
 //! The level set φ = −depth of any surface.
 
 mod contents;
+mod nearby;
 mod planes;
 #[cfg(test)]
 mod tests;
@@ -11,6 +12,7 @@ use sphpack_neighbors::{Bounds, point};
 
 use crate::surface::{Closest, Feature, Features, Surface};
 use crate::{CORNER_DEGREES, GeometryError};
+pub(crate) use contents::cut;
 use planes::{Plane, Planes};
 
 /// Most projections per query; one or two suffice away from creases, five or so at them.
@@ -312,5 +314,11 @@ impl<const D: usize> Surface<D> for LevelInset<D> {
         Self::new(self.surface.clone(), self.depth + depth)
             .map(|inset| Arc::new(inset) as Arc<dyn Surface<D>>)
             .map_err(|_| GeometryError::Vanished { depth })
+    }
+
+    fn sample(&self, count: usize) -> Result<Vec<Closest<D>>, GeometryError> {
+        crate::sample::evenly_near(self, count, &|p| self.height(p), &|p| {
+            self.closest_nearby(p)
+        })
     }
 }

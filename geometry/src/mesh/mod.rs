@@ -4,6 +4,7 @@ mod features;
 mod inset;
 mod normals;
 mod read;
+mod strew;
 mod surface;
 #[cfg(test)]
 mod tests;

@@ -134,4 +134,9 @@ impl Surface<3> for Mesh {
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
         inset::inset(self, depth)
     }
+
+    fn sample(&self, count: usize) -> Result<Vec<Closest<3>>, GeometryError> {
+        let strew = |_, wanted| self.strewn(wanted);
+        crate::sample::spread(self, count, &|p| self.closest(p), strew)
+    }
 }

@@ -6,6 +6,7 @@ use sphpack_neighbors::{Bounds, point};
 
 use super::{Outline, inside::crosses};
 use crate::GeometryError;
+use crate::sample::{Ring, along};
 use crate::segment::cross;
 use crate::surface::{Closest, Feature, Features, Surface};
 
@@ -136,5 +137,17 @@ impl Surface<2> for Outline {
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<2>>, GeometryError> {
         GeometryError::check_depth(depth)?;
         Ok(Arc::new(self.offset(-depth)?))
+    }
+
+    fn sample(&self, count: usize) -> Result<Vec<Closest<2>>, GeometryError> {
+        let rings: Vec<Ring<2>> = self
+            .starts
+            .windows(2)
+            .map(|r| Ring {
+                points: self.points[r[0]..r[1]].to_vec(),
+                corner: self.corner[r[0]..r[1]].to_vec(),
+            })
+            .collect();
+        Ok(along(self, &rings, count))
     }
 }

@@ -108,4 +108,22 @@ impl<const D: usize> Surface<D> for Ball<D> {
             radius: self.radius - depth,
         }))
     }
+
+    /// Exact on the circle.
+    fn sample(&self, count: usize) -> Result<Vec<Closest<D>>, GeometryError> {
+        if D != 2 {
+            return crate::sample::evenly(self, count);
+        }
+        let at = |i: usize| {
+            let (sin, cos) = (TAU * i as f64 / count as f64).sin_cos();
+            let normal = std::array::from_fn(|k| [cos, sin].get(k).copied().unwrap_or(0.0));
+            Closest {
+                point: point::add_scaled(self.center, self.radius, normal),
+                normal,
+                distance: 0.0,
+                feature: Feature::Smooth,
+            }
+        };
+        Ok((0..count).map(at).collect())
+    }
 }

@@ -1,0 +1,67 @@
+//! Points spread evenly over any surface, features first.
+
+mod candidates;
+mod curve;
+mod features;
+mod polyline;
+mod ranked;
+mod relax;
+mod sheet;
+mod thinning;
+mod trace;
+
+#[cfg(test)]
+mod tests;
+
+use crate::GeometryError;
+use crate::surface::{Closest, Surface};
+
+pub(crate) use candidates::Candidates;
+pub(crate) use curve::{Ring, along};
+pub(crate) use sheet::spread;
+
+/// [`Surface::sample`] for a surface of which nothing but its answers is known.
+///
+/// # Errors
+/// As [`evenly_near`].
+pub(crate) fn evenly<const D: usize, S: Surface<D> + ?Sized>(
+    surface: &S,
+    count: usize,
+) -> Result<Vec<Closest<D>>, GeometryError> {
+    let closest = |p| surface.closest(p);
+    evenly_near(surface, count, &closest, &closest)
+}
+
+/// [`evenly`], where `look` tells the signed distance, the direction in which it grows and the point that these lead
+/// to, and `near` the closest point of a place near the surface, both perhaps faster than [`Surface::closest`].
+///
+/// # Errors
+/// [`GeometryError::BadParameter`] unless `D` is 2 or 3.
+pub(crate) fn evenly_near<const D: usize, S: Surface<D> + ?Sized>(
+    surface: &S,
+    count: usize,
+    look: &impl Fn([f64; D]) -> Closest<D>,
+    near: &(impl Fn([f64; D]) -> Closest<D> + Sync),
+) -> Result<Vec<Closest<D>>, GeometryError> {
+    if count == 0 {
+        return Ok(Vec::new());
+    }
+    let bounds = surface.bounds();
+    match D {
+        2 => {
+            let spacing = surface.measure() / count as f64;
+            let corners = surface.features().corners;
+            let rings = trace::rings(&bounds, look, &corners, spacing);
+            Ok(along(surface, &rings, count))
+        }
+        3 => spread(surface, count, near, |spacing, wanted| {
+            Candidates::in_boxes(&bounds, look, spacing, wanted)
+        }),
+        _ => Err(GeometryError::BadParameter {
+            shape: "sample",
+            name: "dimension",
+            value: D as f64,
+            needs: "2 or 3",
+        }),
+    }
+}

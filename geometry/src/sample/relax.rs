@@ -1,0 +1,220 @@
+//! Points on a surface that push each other apart until they are spread evenly.
+
+use rayon::prelude::*;
+use sphpack_neighbors::{Bounds, CellList, Domain, point};
+
+use crate::surface::Closest;
+
+/// Range of the push, in spacings: the nearest ring of neighbours (1.07 in a perfect hexagonal lattice) and not the
+/// next (1.86), so that a row beside a sharp edge does not miss the rows beyond it.
+const REACH: f64 = 1.9;
+
+/// Steps. Nearest distances vary by 5.0 % after 20, 3.2 % after 60 (torus), 2.8 % after 300 (ellipsoid).
+const STEPS: usize = 60;
+
+/// Longest time step. The lattice's fastest mode is stable up to 1.37, and the start is rougher than that.
+const LONGEST: f64 = 0.8;
+
+/// Farthest move in one step, in spacings.
+const FARTHEST: f64 = 0.1;
+
+/// A point may move so far, in spacings, along its tangent plane before it is put back onto the surface; where the
+/// normal turned by more than [`FLAT`] on the last way, less far.
+const LEASH: f64 = 0.15;
+const SHORT_LEASH: f64 = 0.03;
+const FLAT: f64 = 0.99;
+
+/// Cosine of the angle between two normals beyond which points are on opposite sides of a thin part.
+const OPPOSITE: f64 = -0.5;
+
+/// FIRE's mixing parameter at a start, its decay, and the growth and steps of patience of the time step (Bitzek et al.,
+/// "Structural relaxation made simple", Physical Review Letters 97, 2006).
+const MIXING: f64 = 0.1;
+const MIXING_DECAY: f64 = 0.99;
+const GROWTH: f64 = 1.1;
+const PATIENCE: usize = 5;
+
+/// Moves all sites but the first `held` until all are spread evenly, by FIRE on the energy of a smooth repulsion
+/// along the surface. `near` is the closest point of a place near the surface. Sites end up near the surface, not
+/// exactly on it; only their points are meaningful.
+///
+/// Tried and left: a longer range (2.2, 2.6) costs more and brings nothing; without the factor 1/r nearest distances
+/// vary by 3.9 % after 40 steps, with it by 3.6 %. The way over a bend taken unfolded into one plane instead of the
+/// straight line is no better beside sharp edges and worse around thin ears (5.2 % against 3.7 % for 2,300 points on
+/// a rabbit), and so is parting from a normal's turn of 90° on (5.8 %).
+pub(super) fn even_out<const D: usize>(
+    sites: &mut [Closest<D>],
+    held: usize,
+    spacing: f64,
+    near: &(impl Fn([f64; D]) -> Closest<D> + Sync),
+) {
+    let mut movers: Vec<Mover<D>> = sites
+        .iter()
+        .map(|site| Mover {
+            point: site.point,
+            normal: site.normal,
+            put: site.point,
+            leash: SHORT_LEASH,
+            velocity: [0.0; D],
+        })
+        .collect();
+    let mut pushes = Pushes::new(&movers, held, spacing);
+    let (mut step, mut mixing, mut patience) = (0.3 * LONGEST, MIXING, 0);
+    for _ in 0..STEPS {
+        let force = pushes.on(&movers);
+        let (mut power, mut force_squared, mut speed_squared) = (0.0, 0.0, 0.0);
+        for (mover, &f) in movers.iter().zip(force).skip(held) {
+            power += point::dot(f, mover.velocity);
+            force_squared += point::norm_squared(f);
+            speed_squared += point::norm_squared(mover.velocity);
+        }
+        let uphill = power < 0.0;
+        if uphill {
+            (step, mixing, patience) = (0.5 * step, MIXING, 0);
+        } else {
+            patience += 1;
+            if patience > PATIENCE {
+                (step, mixing) = ((GROWTH * step).min(LONGEST), MIXING_DECAY * mixing);
+            }
+        }
+        let keep = if uphill { 0.0 } else { 1.0 - mixing };
+        let turn = if uphill || force_squared == 0.0 {
+            0.0
+        } else {
+            mixing * (speed_squared / force_squared).sqrt()
+        };
+        movers
+            .par_iter_mut()
+            .zip(force)
+            .skip(held)
+            .with_min_len(64)
+            .for_each(|(mover, &f)| {
+                let kept = point::scale(mover.velocity, keep);
+                mover.velocity = point::add_scaled(kept, turn + step, f);
+                mover.advance(step, spacing, near);
+            });
+    }
+    for (site, mover) in sites.iter_mut().zip(&movers).skip(held) {
+        site.point = mover.point;
+    }
+}
+
+/// A point on its way.
+#[derive(Debug, Clone, Copy)]
+struct Mover<const D: usize> {
+    point: [f64; D],
+    /// Normal where it was last put onto the surface.
+    normal: [f64; D],
+    /// Where that was.
+    put: [f64; D],
+    leash: f64,
+    /// Along the tangent plane, spacings per unit of time.
+    velocity: [f64; D],
+}
+
+impl<const D: usize> Mover<D> {
+    /// Moves along the tangent plane, and onto the surface where the leash is at its end.
+    fn advance(&mut self, step: f64, spacing: f64, near: &impl Fn([f64; D]) -> Closest<D>) {
+        let way = step * point::norm(self.velocity);
+        if way > FARTHEST {
+            self.velocity = point::scale(self.velocity, FARTHEST / way);
+        }
+        self.point = point::add_scaled(self.point, step * spacing, self.velocity);
+        if point::distance(self.point, self.put) > self.leash * spacing {
+            let hit = near(self.point);
+            let flat = point::dot(self.normal, hit.normal) > FLAT;
+            self.leash = if flat { LEASH } else { SHORT_LEASH };
+            self.point = hit.point;
+            self.put = hit.point;
+            self.normal = hit.normal;
+            self.velocity = point::reject(self.velocity, hit.normal);
+        }
+    }
+}
+
+/// What the points do to each other.
+#[derive(Debug)]
+struct Pushes<const D: usize> {
+    list: CellList<D>,
+    held: usize,
+    spacing: f64,
+    points: Vec<[f64; D]>,
+    /// Point and normal, in the list's order.
+    slots: Vec<([f64; D], [f64; D])>,
+    by_slot: Vec<[f64; D]>,
+    by_point: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Pushes<D> {
+    fn new(movers: &[Mover<D>], held: usize, spacing: f64) -> Self {
+        let points: Vec<[f64; D]> = movers.iter().map(|mover| mover.point).collect();
+        let bounds = Bounds::of(&points);
+        let domain = Domain::new(bounds.min, bounds.max);
+        Self {
+            list: CellList::new(&domain, REACH * spacing).with_skin(0.3 * spacing),
+            held,
+            spacing,
+            slots: Vec::with_capacity(points.len()),
+            by_slot: vec![[0.0; D]; points.len()],
+            by_point: vec![[0.0; D]; points.len()],
+            points,
+        }
+    }
+
+    /// The push on each point along its tangent plane; none on held ones.
+    fn on(&mut self, movers: &[Mover<D>]) -> &[[f64; D]] {
+        for (p, mover) in self.points.iter_mut().zip(movers) {
+            *p = mover.point;
+        }
+        self.list.update(&self.points, |_| true);
+        let order = self.list.target_particles();
+        self.slots.clear();
+        self.slots.extend(order.iter().map(|&i| {
+            let mover = &movers[i as usize];
+            (mover.point, mover.normal)
+        }));
+        let (slots, held, spacing) = (&self.slots, self.held, self.spacing);
+        self.list.for_each_block(&mut self.by_slot, |block, out| {
+            for (lane, out) in out.iter_mut().enumerate() {
+                let slot = block.first_slot + lane;
+                let mut sum = [0.0; D];
+                if order[slot] as usize >= held {
+                    for &other in block.candidates {
+                        if let Some(push) = push(slots[slot], slots[other as usize], spacing) {
+                            sum = point::add(sum, push);
+                        }
+                    }
+                }
+                *out = point::reject(sum, slots[slot].1);
+            }
+        });
+        for (&push, &i) in self.by_slot.iter().zip(order) {
+            self.by_point[i as usize] = push;
+        }
+        &self.by_point
+    }
+}
+
+/// The push of one point with its normal on another: (1 − r/R)³ / r along the surface, r in spacings.
+#[inline]
+fn push<const D: usize>(
+    (p, normal): ([f64; D], [f64; D]),
+    (other, other_normal): ([f64; D], [f64; D]),
+    spacing: f64,
+) -> Option<[f64; D]> {
+    let reach = REACH * spacing;
+    let away = point::sub(p, other);
+    let squared = point::norm_squared(away);
+    if squared >= reach * reach || squared == 0.0 {
+        return None;
+    }
+    if point::dot(normal, other_normal) < OPPOSITE {
+        return None;
+    }
+    let length = squared.sqrt();
+    let gap = 1.0 - length / reach;
+    let direction = point::unit(point::reject(away, normal))?;
+    // Points on top of each other part gently.
+    let r = (length / spacing).max(0.1);
+    Some(point::scale(direction, gap * gap * gap / r))
+}
