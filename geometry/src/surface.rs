@@ -91,7 +91,7 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Curves: exact by arc length between corners. Surfaces: sample elimination, then 60 steps down the energy of a
     /// repulsion along the surface; nearest distances then vary by some 3 % (coefficient of variation), more where
     /// the surface bends within a spacing. The same points for any number of threads, and scaled ones for a body
-    /// scaled by a power of two. O(n log n); 14,000 points on a mesh of 75,000 triangles take 0.7 s on one core, on
+    /// scaled by a power of two. O(n log n); 14,000 points on a mesh of 75,000 triangles take 0.8 s on one core, on
     /// the inset of it 1.2 s.
     ///
     /// # Errors
