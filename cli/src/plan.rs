@@ -220,6 +220,8 @@ where
     resolved.domain.max = Some(domain.bounds.max.to_vec());
     resolved.domain.periodic = Some(domain.periodic.to_vec());
     resolved.packing.lattice = Some(problem.chosen_lattice());
+    let settling = scene.packing.settling();
+    resolved.packing.residual_tolerance = Some(settling.tolerance());
     let (kernel, h_over_spacing) = scene.judge();
     resolved.quality.kernel = Some(kernel);
     resolved.quality.h_over_spacing = Some(h_over_spacing);

@@ -45,6 +45,8 @@ pub struct Report {
     pub density: Density,
     /// h |∇Γ|.
     pub residual: Residual,
+    /// Smallest distance of two particles, in ∆s.
+    pub closest_pair_over_spacing: f64,
     /// Each body's particle surface.
     pub surface: Vec<SurfaceReport>,
     /// Each body's content.
@@ -164,7 +166,7 @@ impl From<&SurfaceQuality> for SurfaceReport {
 }
 
 /// JSON has no infinities: 0 for figures of too few particles.
-fn finite(value: f64) -> f64 {
+pub(crate) fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { 0.0 }
 }
 

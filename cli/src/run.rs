@@ -2,7 +2,9 @@
 
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, point};
-use sphpack_packing::{Fields, Hybrid, Kind, Observer, Packed, Problem, Quality, StopReason};
+use sphpack_packing::{
+    Balanced, Fields, Hybrid, Kind, Observer, Packed, Problem, Quality, StopReason,
+};
 use sphpack_separation::{Labels, Side};
 
 use crate::Error;
@@ -10,7 +12,8 @@ use crate::dimension::{Dimension, Space};
 use crate::labels::{Sorted, sort};
 use crate::plan::{Prepared, available_bytes, dimension, judged, prepare};
 use crate::report::{
-    BodyReport, Counts, History, Report, SCHEMA, SecondsReport, SurfaceReport, peak_memory_bytes,
+    BodyReport, Counts, History, Report, SCHEMA, SecondsReport, SurfaceReport, finite,
+    peak_memory_bytes,
 };
 use crate::scene::{Method, Scene};
 use crate::table::Table;
@@ -118,22 +121,30 @@ fn pack<const D: usize>(
     scene: &Scene,
     observer: &mut dyn Observer,
 ) -> Result<Packed<D>, Error> {
-    match scene.packing.method {
+    let packing = &scene.packing;
+    let packed = match packing.method {
+        Method::Balanced => Balanced {
+            settling: packing.settling(),
+        }
+        .pack(problem, observer),
         Method::Hybrid => Hybrid {
-            velocity_tolerance: scene.packing.velocity_tolerance,
-            max_iterations: scene.packing.max_iterations,
+            velocity_tolerance: packing.velocity_tolerance,
+            max_iterations: packing.max_iterations,
+            settling: packing.minimiser.map(|_| packing.settling()),
             ..Hybrid::default()
         }
-        .pack(problem, observer)
-        .map_err(|source| Error::Packing {
-            path: scene.path.clone(),
-            source,
-        }),
-        other => Err(Error::System(format!(
-            "this version has no method \"{}\"",
-            other.name()
-        ))),
-    }
+        .pack(problem, observer),
+        other => {
+            return Err(Error::System(format!(
+                "this version has no method \"{}\"",
+                other.name()
+            )));
+        }
+    };
+    packed.map_err(|source| Error::Packing {
+        path: scene.path.clone(),
+        source,
+    })
 }
 
 /// Γ and ∇Γ by the kernel that judges. Where that reaches beyond the frozen particles of the packing, their lattice is
@@ -257,8 +268,7 @@ fn report<const D: usize>(
     };
     let bodies = (problem.bodies.iter().zip(&scene.body).zip(0_u16..))
         .map(|((body, spec), number)| {
-            // A particle on an exact surface is half inside; one that sits ∆s/2 inside, wholly.
-            let on_surface = (0.5 + body.inset_over_spacing).min(1.0);
+            let on_surface = body.inner_share();
             let volume = (0..packed.particles.len())
                 .filter(|&i| labels.body[i] == Some(number))
                 .map(|i| {
@@ -305,6 +315,7 @@ fn report<const D: usize>(
         },
         density: quality.density.into(),
         residual: quality.residual.into(),
+        closest_pair_over_spacing: finite(quality.closest_pair_over_spacing),
         surface: quality.surface.iter().map(SurfaceReport::from).collect(),
         bodies,
         seconds: SecondsReport {

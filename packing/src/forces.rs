@@ -134,6 +134,41 @@ impl<const D: usize> Forces<D> {
         })
     }
 
+    /// Smoothing length of the kernel, scene units.
+    pub fn smoothing_length(&self) -> f64 {
+        self.smoothing_length
+    }
+
+    /// [`Forces::energy`] with every particle's pressure part times its own weight: with volumes over a common volume
+    /// as weights, the energy whose negative gradient is [`Forces::weighted_acceleration`].
+    pub fn weighted_energy(&self, weight: impl Fn(usize) -> f64 + Sync) -> f64 {
+        let particle = self.list.target_particles();
+        let blocks = self
+            .sums
+            .chunks(REDUCTION_BLOCK)
+            .zip(particle.chunks(REDUCTION_BLOCK));
+        let partial: Vec<f64> = blocks
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|(sums, particle)| {
+                let mut sum = 0.0;
+                for (sums, &i) in sums.iter().zip(particle) {
+                    let pressure = 0.5 * (sums.gamma + sums.gamma_of_others);
+                    sum += weight(i as usize) * pressure + sums.repulsion_energy;
+                }
+                sum
+            })
+            .collect();
+        partial.iter().sum()
+    }
+
+    /// [`Forces::acceleration`] with the pressure part times `weight`.
+    #[inline]
+    pub fn weighted_acceleration(&self, i: usize, weight: f64) -> [f64; D] {
+        let sums = self.sums(i);
+        std::array::from_fn(|k| sums.repulsion[k] - weight * sums.gradient[k])
+    }
+
     /// Evaluations so far.
     pub fn evaluations(&self) -> usize {
         self.evaluations

@@ -5,10 +5,12 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sphpack_neighbors::point;
 
+use crate::course::Course;
 use crate::forces::{Forces, largest};
-use crate::observer::{Observer, Phase, Progress, Sample};
+use crate::minimise::{Landscape, Settling};
+use crate::observer::{Observer, Phase};
 use crate::on_surface::{OnSurface, capture};
-use crate::packed::{Packed, Seconds, StopReason};
+use crate::packed::{Packed, StopReason};
 use crate::particles::Kind;
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::{Repulsion, STRENGTH};
@@ -36,6 +38,8 @@ pub struct Hybrid {
     pub damping: f64,
     /// C of the repulsion k_r = C ∆s p_b; 001 gives 0.004 … 0.006.
     pub repulsion: f64,
+    /// What takes over where the capture phase ends; `None` goes on damping, as 001 does.
+    pub settling: Option<Settling>,
 }
 
 impl Default for Hybrid {
@@ -48,6 +52,7 @@ impl Default for Hybrid {
             empty_passes: 4,
             damping: 0.2,
             repulsion: STRENGTH,
+            settling: None,
         }
     }
 }
@@ -62,37 +67,24 @@ impl Hybrid {
         problem: &Problem<D>,
         observer: &mut dyn Observer,
     ) -> Result<Packed<D>, PackingError> {
-        let begin = Instant::now();
-        let mut seconds = Seconds::default();
-        let mut progress = Progress {
-            phase: Phase::Geometry,
-            evaluation: 0,
-            max_evaluations: self.max_iterations,
-            criterion: f64::INFINITY,
-            tolerance: self.velocity_tolerance,
-            on_surface: 0,
-            target: 0,
-            seconds: 0.0,
-        };
+        let mut course = Course::new(observer, self.velocity_tolerance, self.max_iterations);
         // ReadInput
         problem.check()?;
-        let mut stop_reason = StopReason::IterationLimit;
-        let mut interrupted = observer.progress(&progress).is_break();
+        course.enter(Phase::Geometry);
+        let geometry = Instant::now();
         let surfaces = particle_surfaces(problem)?;
-        progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
-        seconds.geometry = begin.elapsed().as_secs_f64();
+        course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
+        course.seconds.geometry = geometry.elapsed().as_secs_f64();
 
         // CreateParticles
-        progress.phase = Phase::Seeding;
-        progress.seconds = begin.elapsed().as_secs_f64();
-        interrupted |= observer.progress(&progress).is_break();
+        course.enter(Phase::Seeding);
         let seeding = Instant::now();
         let Seeds {
             mut particles,
             frozen_lattice,
         } = seed(problem)?;
         fix_corners(&mut particles, &surfaces, problem.spacing);
-        seconds.seeding = seeding.elapsed().as_secs_f64();
+        course.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         // SetConstantAndTimeStep, for p_b = 1
         let (h, spacing) = (problem.smoothing_length(), problem.spacing);
@@ -101,11 +93,11 @@ impl Hybrid {
         let mut velocity = vec![[0.0; D]; particles.len()];
         let mut on_surface = OnSurface::default();
         on_surface.refresh(&particles);
-        let mut history = Vec::new();
         let (mut iteration, mut empty_count, mut fastest) = (0, 0, 0.0_f64);
-        progress.phase = Phase::Capture;
+        let mut stop_reason = StopReason::IterationLimit;
+        course.progress.phase = Phase::Capture;
 
-        while iteration < self.max_iterations && !interrupted {
+        while iteration < self.max_iterations && !course.interrupted {
             // UpdateNeighbors, ComputeAccelerations
             forces.evaluate(&particles);
             // Eq. 25, with last step's velocities.
@@ -141,95 +133,49 @@ impl Hybrid {
                 }
             }
             on_surface.project(&mut particles, &surfaces, problem.support());
-            seconds.projection += projecting.elapsed().as_secs_f64();
+            course.seconds.projection += projecting.elapsed().as_secs_f64();
             iteration += 1;
 
             if is_pass {
                 // CheckConvergence (eq. 23)
                 let settled = empty_count > self.empty_passes;
-                progress.phase = if settled {
+                course.progress.phase = if settled {
                     Phase::Settling
                 } else {
                     Phase::Capture
                 };
-                progress.evaluation = iteration;
-                progress.criterion = fastest * dt / h;
-                progress.on_surface = on_surface.index.len() + particles.count(Kind::Fixed);
-                progress.seconds = begin.elapsed().as_secs_f64();
-                interrupted |= observer.progress(&progress).is_break();
-                history.push(sample(
-                    &forces,
-                    &particles.kind,
-                    h,
-                    iteration,
-                    progress.seconds,
-                ));
-                if settled && progress.criterion < self.velocity_tolerance {
+                course.progress.evaluation = iteration;
+                course.progress.criterion = fastest * dt / h;
+                course.progress.on_surface = on_surface.index.len() + particles.count(Kind::Fixed);
+                course.tell();
+                course.note(&forces, &particles);
+                if settled && self.settling.is_some() {
+                    break;
+                }
+                if settled && course.progress.criterion < self.velocity_tolerance {
                     stop_reason = StopReason::Converged;
                     break;
                 }
             }
         }
-        if interrupted {
-            stop_reason = StopReason::Interrupted;
+        course.progress.evaluation = iteration;
+        if let Some(settling) = &self.settling
+            && iteration < self.max_iterations
+            && !course.interrupted
+        {
+            course.progress.tolerance = settling.tolerance();
+            let reach = problem.support();
+            let mut landscape = Landscape::new(&mut particles, &surfaces, forces, spacing, reach);
+            stop_reason = settling.run(&mut landscape, &mut course);
+            forces = landscape.into_forces();
         }
-        if problem.domain.is_periodic() {
-            for (x, kind) in particles.position.iter_mut().zip(&particles.kind) {
-                if *kind == Kind::Free {
-                    *x = problem.domain.wrap(*x);
-                }
-            }
-        }
-        (seconds.neighbors, seconds.forces) = forces.seconds();
-        seconds.total = begin.elapsed().as_secs_f64();
-        Ok(Packed {
+        Ok(course.end(
+            problem,
             particles,
-            domain: problem.domain,
-            spacing,
-            lattice: problem.chosen_lattice(),
             frozen_lattice,
-            kernel: problem.kernel,
-            h_over_spacing: problem.h_over_spacing,
-            bodies: problem
-                .bodies
-                .iter()
-                .map(|body| body.name.clone())
-                .collect(),
             surfaces,
+            &forces,
             stop_reason,
-            iterations: iteration,
-            force_evaluations: forces.evaluations(),
-            history,
-            seconds,
-        })
-    }
-}
-
-/// Figures of the last evaluation.
-fn sample<const D: usize>(
-    forces: &Forces<D>,
-    kind: &[Kind],
-    h: f64,
-    evaluation: usize,
-    seconds: f64,
-) -> Sample {
-    let of_kind = |i: usize, wanted: bool, value: f64| {
-        if wanted && kind[i] != Kind::Frozen {
-            value
-        } else {
-            0.0
-        }
-    };
-    let targets = forces.list().targets().max(1) as f64;
-    Sample {
-        evaluation,
-        energy: forces.energy() / targets,
-        residual: h * largest(kind.len(), |i| {
-            of_kind(i, kind[i] == Kind::Free, point::norm(forces.gradient(i)))
-        }),
-        linf: largest(kind.len(), |i| {
-            of_kind(i, true, (forces.gamma(i) - 1.0).abs())
-        }),
-        seconds,
+        ))
     }
 }

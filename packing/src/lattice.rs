@@ -165,7 +165,7 @@ impl Lattice {
                 std::array::from_fn(|k| (size[k] / (cells[k] as f64 * spacing * unit[k])).ln());
             let mean = stretch.iter().sum::<f64>() / D as f64;
             let uneven: f64 = stretch.iter().map(|s| (s - mean) * (s - mean)).sum();
-            let cost = uneven + 4.0 * mean * mean;
+            let cost = uneven + 20.0 * mean * mean;
             if best.is_none_or(|(least, _)| cost < least - 1e-12) {
                 best = Some((cost, cells));
             }

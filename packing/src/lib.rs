@@ -23,9 +23,13 @@
 //! Invariants: results have the same bits for any number of threads; the loop over iterations allocates only where a
 //! neighbour list is built anew or a particle is captured; nothing here reads or writes files.
 
+pub mod balanced;
+mod course;
 pub mod forces;
 mod hybrid;
 pub mod lattice;
+pub mod masses;
+pub mod minimise;
 pub mod observer;
 pub mod on_surface;
 pub mod packed;
@@ -39,8 +43,10 @@ pub mod seeding;
 #[cfg(test)]
 mod tests;
 
+pub use balanced::Balanced;
 pub use hybrid::Hybrid;
 pub use lattice::Lattice;
+pub use minimise::{Finish, MinimiserKind, Settling};
 pub use observer::{Observer, Phase, Progress, Sample, Silent};
 pub use packed::{Packed, ParticleSurface, Seconds, StopReason};
 pub use particles::{Kind, Particles};

@@ -23,6 +23,14 @@ pub struct Body<const D: usize> {
     pub inset_over_spacing: f64,
 }
 
+impl<const D: usize> Body<D> {
+    /// The part of a surface particle that counts as inside: half where it sits on the true surface, the whole where
+    /// it sits ∆s/2 or more inside.
+    pub fn inner_share(&self) -> f64 {
+        (0.5 + self.inset_over_spacing).min(1.0)
+    }
+}
+
 /// How the frozen particles outside the domain are arranged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FrozenLayout {

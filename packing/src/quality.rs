@@ -154,6 +154,38 @@ impl ResidualQuality {
     }
 }
 
+/// How evenly points are spread: the distance from each to the nearest other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spacing {
+    /// Mean, scene units; 0 for fewer than two points.
+    pub mean: f64,
+    /// Coefficient of variation.
+    pub cv: f64,
+}
+
+impl Spacing {
+    /// Of the given points. O(n log n), parallel.
+    pub fn of<const D: usize>(points: &[[f64; D]]) -> Self {
+        let Ok(tree) = KdTree::new(points) else {
+            return Self { mean: 0.0, cv: 0.0 };
+        };
+        let distances: Vec<f64> = points
+            .par_iter()
+            .with_min_len(256)
+            .filter_map(|&p| tree.nearest_n(p, 2).get(1).map(|hit| hit.distance))
+            .collect();
+        let n = distances.len().max(1) as f64;
+        let mean = blocked_sum(&distances, |&s| s) / n;
+        let variance = blocked_sum(&distances, |s| (s - mean) * (s - mean)) / n;
+        let cv = if mean > 0.0 {
+            variance.sqrt() / mean
+        } else {
+            0.0
+        };
+        Self { mean, cv }
+    }
+}
+
 /// Smallest distance from an asked point to any other; infinite where there is no other. Periodic images are not seen.
 fn closest_pair<const D: usize>(
     positions: &[[f64; D]],
@@ -232,34 +264,15 @@ impl<const D: usize> Packed<D> {
             .map(|i| particles.position[i])
             .collect();
         let farthest = largest(on.len(), |i| surface.surface.closest(on[i]).distance.abs());
-        let spacings: Vec<f64> = KdTree::new(&on).map_or_else(
-            |_| Vec::new(),
-            |tree| {
-                on.par_iter()
-                    .with_min_len(256)
-                    .filter_map(|&p| {
-                        tree.nearest_n(p, 2)
-                            .get(1)
-                            .map(|hit| hit.distance / self.spacing)
-                    })
-                    .collect()
-            },
-        );
-        let n = spacings.len().max(1) as f64;
-        let mean = blocked_sum(&spacings, |&s| s) / n;
-        let variance = blocked_sum(&spacings, |s| (s - mean) * (s - mean)) / n;
+        let spacing = Spacing::of(&on);
         SurfaceQuality {
             body: name.to_owned(),
             measure: surface.surface.measure(),
             target_count: surface.target_count,
             count: on.len(),
             max_distance_over_spacing: farthest / self.spacing,
-            spacing_mean_over_spacing: mean,
-            spacing_cv: if mean > 0.0 {
-                variance.sqrt() / mean
-            } else {
-                0.0
-            },
+            spacing_mean_over_spacing: spacing.mean / self.spacing,
+            spacing_cv: spacing.cv,
         }
     }
 }

@@ -22,10 +22,15 @@ pub struct Repulsion {
 impl Repulsion {
     /// The repulsion at spacing ∆s with k_r = `strength` · ∆s · p_b, for p_b = 1 (001 eq. 24).
     pub fn new(spacing: f64, strength: f64) -> Self {
+        Self::with_reach(spacing, strength, REACH_OVER_SPACING)
+    }
+
+    /// [`Repulsion::new`] that begins at another distance than 0.95 ∆s, in ∆s.
+    pub fn with_reach(spacing: f64, strength: f64, reach_over_spacing: f64) -> Self {
         Self {
             strength: 12.0 * strength * spacing,
-            c: 2.0 / 3.0 * REACH_OVER_SPACING * spacing,
-            reach: REACH_OVER_SPACING * spacing,
+            c: 2.0 / 3.0 * reach_over_spacing * spacing,
+            reach: reach_over_spacing * spacing,
             core: 0.5 * spacing,
         }
     }

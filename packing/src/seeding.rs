@@ -70,6 +70,24 @@ pub struct Seeds<const D: usize> {
     pub frozen_lattice: Filling<D>,
 }
 
+impl<const D: usize> Seeds<D> {
+    /// The particles of the box, surrounded by frozen ones of the given volume.
+    pub(crate) fn surrounded(
+        problem: &Problem<D>,
+        mut particles: Particles<D>,
+        frozen_lattice: Filling<D>,
+        volume: f64,
+    ) -> Self {
+        for site in frozen_lattice.continued(&problem.domain, problem.frozen_depth()) {
+            particles.push(site, Kind::Frozen, volume, None);
+        }
+        Self {
+            particles,
+            frozen_lattice,
+        }
+    }
+}
+
 /// Fills the box with free particles on the problem's lattice, and surrounds it with frozen ones.
 ///
 /// # Errors
@@ -78,7 +96,22 @@ pub fn seed<const D: usize>(problem: &Problem<D>) -> Result<Seeds<D>, PackingErr
     problem.check()?;
     let filling = in_phase(problem, problem.filling());
     let volume = filling.volume_per_site();
-    let frozen_lattice = match problem.frozen {
+    let mut particles = Particles::default();
+    for site in filling.sites() {
+        particles.push(site, Kind::Free, volume, None);
+    }
+    let frozen = frozen_lattice(problem, filling);
+    Ok(Seeds::surrounded(problem, particles, frozen, volume))
+}
+
+/// The lattice that fills the box, begun where the problem's seed says, and the one that continues it outside.
+pub(crate) fn seed_lattice<const D: usize>(problem: &Problem<D>) -> (Filling<D>, Filling<D>) {
+    let filling = problem.filling().shifted(phase(problem.seed));
+    (filling, frozen_lattice(problem, filling))
+}
+
+fn frozen_lattice<const D: usize>(problem: &Problem<D>, filling: Filling<D>) -> Filling<D> {
+    match problem.frozen {
         FrozenLayout::Lattice => filling,
         FrozenLayout::Square => {
             let ring = if D == 2 {
@@ -88,18 +121,7 @@ pub fn seed<const D: usize>(problem: &Problem<D>) -> Result<Seeds<D>, PackingErr
             };
             ring.fill(problem.domain.bounds, problem.spacing)
         }
-    };
-    let mut particles = Particles::default();
-    for site in filling.sites() {
-        particles.push(site, Kind::Free, volume, None);
     }
-    for site in frozen_lattice.continued(&problem.domain, problem.frozen_depth()) {
-        particles.push(site, Kind::Frozen, volume, None);
-    }
-    Ok(Seeds {
-        particles,
-        frozen_lattice,
-    })
 }
 
 /// The particle surface of every body: the true surface moved inward by its inset.

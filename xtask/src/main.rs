@@ -1,5 +1,7 @@
-//! The project's own tasks: `cargo xtask ci | tidy | reproduce-paper`.
+//! The project's own tasks: `cargo xtask ci | tidy | reproduce-paper | balanced`.
 
+mod balanced;
+mod balanced_rows;
 mod ci;
 mod reproduce;
 mod rows;
@@ -13,11 +15,13 @@ cargo xtask TASK
 
   ci                          everything that a change must pass
   tidy                        house rules: crate graph, file sizes, names, lints
-  reproduce-paper [--quick] [--data DIR] [--write]
+  reproduce-paper [--quick] [--only SCENE] [--data DIR] [--write]
                               the figures of paper 001, published beside ours;
                               --quick leaves out the long runs,
                               --data names the folder with bunny.stl (default: data),
                               --write also writes docs/reproduction.md
+  balanced [--quick] [--only SCENE] [--data DIR] [--write]
+                              the balanced method against its bars; --write also writes docs/balanced.md
 ";
 
 fn main() -> ExitCode {
@@ -29,6 +33,7 @@ fn main() -> ExitCode {
         Some("reproduce-paper") => {
             reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))
         }
+        Some("balanced") => reproduce::Settings::parse(rest).and_then(|s| balanced::run(&s)),
         Some("help" | "--help" | "-h") => {
             print!("{USAGE}");
             Ok(())

@@ -148,7 +148,7 @@ fn unfinished(report: &Report) -> Option<String> {
         "converged" => None,
         "interrupted" => Some("interrupted; the files hold what there was".to_owned()),
         "iteration-limit" => Some(format!(
-            "not converged in {} iterations; raise packing.max_iterations, or packing.velocity_tolerance",
+            "not converged in {} iterations; raise packing.max_iterations or the tolerance",
             grouped(report.iterations)
         )),
         reason => Some(format!(

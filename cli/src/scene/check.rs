@@ -236,10 +236,11 @@ impl Scene {
                 ),
             );
         }
-        if packing.method == Method::Hybrid && packing.finish == Finish::Consistent {
+        let damps = packing.method == Method::Hybrid && packing.minimiser.is_none();
+        if damps && packing.finish == Finish::Consistent {
             return fault(
                 &at("finish"),
-                "finish = \"consistent\" is for methods that minimise; the method \"hybrid\" keeps its repulsion: use finish = \"even\"",
+                "finish = \"consistent\" is for methods that minimise; the method \"hybrid\" damps and keeps its repulsion: use finish = \"even\", or add minimiser = \"lbfgs\"",
             );
         }
         ratio(
@@ -252,11 +253,13 @@ impl Scene {
             "packing.velocity_tolerance",
             packing.velocity_tolerance,
         )?;
-        positive(
-            &at("residual_tolerance"),
-            "packing.residual_tolerance",
-            packing.residual_tolerance,
-        )
+        packing.residual_tolerance.map_or(Ok(()), |tolerance| {
+            positive(
+                &at("residual_tolerance"),
+                "packing.residual_tolerance",
+                tolerance,
+            )
+        })
     }
 }
 

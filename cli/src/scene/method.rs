@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// Capture the surface, then settle by damped dynamics (001 §3.1).
-    #[default]
-    Hybrid,
     /// Surface first, counts balanced, then a minimiser.
+    #[default]
     Balanced,
+    /// Capture the surface, then settle by damped dynamics (001 §3.1).
+    Hybrid,
     /// Free particles against fixed boundary nodes (001 §3.2).
     Standard,
     /// Boundary and free particles in turn (001 §3.3).
@@ -37,16 +37,16 @@ pub struct MethodInfo {
 /// Every method that has a name.
 pub const METHODS: [MethodInfo; 6] = [
     MethodInfo {
+        method: Method::Balanced,
+        name: "balanced",
+        is_available: true,
+        summary: "surface first, counts balanced, then a minimiser (the default)",
+    },
+    MethodInfo {
         method: Method::Hybrid,
         name: "hybrid",
         is_available: true,
-        summary: "captures the surface, then settles by damped dynamics (the default)",
-    },
-    MethodInfo {
-        method: Method::Balanced,
-        name: "balanced",
-        is_available: false,
-        summary: "surface first, counts balanced, then a minimiser",
+        summary: "captures the surface, then settles by damped dynamics (paper 001)",
     },
     MethodInfo {
         method: Method::Standard,

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sphpack_kernels::KernelKind;
-use sphpack_packing::{Hybrid, Kind, Lattice};
+use sphpack_packing::{Hybrid, Kind, Lattice, MinimiserKind, Settling};
 
 pub use check::Fault;
 pub use method::{METHODS, Method, MethodInfo};
@@ -189,14 +189,35 @@ pub struct PackingSpec {
     pub frozen: Frozen,
     /// Methods that damp stop where u_max ∆t/h falls below this.
     pub velocity_tolerance: f64,
-    /// Methods that minimise stop where the largest residual falls below this.
-    pub residual_tolerance: f64,
+    /// The minimiser; `None` is the method's own: "lbfgs" for balanced, none for hybrid, which damps.
+    #[serde(with = "named::minimiser", skip_serializing_if = "Option::is_none")]
+    pub minimiser: Option<MinimiserKind>,
+    /// Methods that minimise stop where the largest force times h falls below this; `None` is 10⁻³ for an even finish,
+    /// 10⁻⁵ for a consistent one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_tolerance: Option<f64>,
     /// The finish of methods that minimise.
     pub finish: Finish,
     /// Give up after this many.
     pub max_iterations: usize,
     /// For methods that draw random numbers.
     pub seed: u64,
+}
+
+impl PackingSpec {
+    /// How methods that minimise bring particles to rest.
+    pub fn settling(&self) -> Settling {
+        Settling {
+            minimiser: self.minimiser.unwrap_or_default(),
+            finish: match self.finish {
+                Finish::Even => sphpack_packing::Finish::Even,
+                Finish::Consistent => sphpack_packing::Finish::Consistent,
+            },
+            residual_tolerance: self.residual_tolerance,
+            max_evaluations: self.max_iterations,
+            ..Settling::default()
+        }
+    }
 }
 
 impl Default for PackingSpec {
@@ -209,7 +230,8 @@ impl Default for PackingSpec {
             lattice: None,
             frozen: Frozen::default(),
             velocity_tolerance: hybrid.velocity_tolerance,
-            residual_tolerance: 1e-3,
+            minimiser: None,
+            residual_tolerance: None,
             finish: Finish::default(),
             max_iterations: hybrid.max_iterations,
             seed: 0,

@@ -5,8 +5,8 @@ use std::fmt;
 use serde::de::{Error, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use sphpack_kernels::KernelKind;
-use sphpack_packing::Lattice;
 use sphpack_packing::problem::DEFAULT_INSET_OVER_SPACING;
+use sphpack_packing::{Lattice, MinimiserKind};
 
 use super::nearest::advice;
 
@@ -43,6 +43,31 @@ pub(super) mod optional_kernel {
         from: D,
     ) -> Result<Option<KernelKind>, D::Error> {
         kernel::deserialize(from).map(Some)
+    }
+}
+
+/// Minimisers by name, or none.
+pub(super) mod minimiser {
+    use super::*;
+
+    pub(in crate::scene) fn serialize<S: Serializer>(
+        minimiser: &Option<MinimiserKind>,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        minimiser.map(MinimiserKind::name).serialize(to)
+    }
+
+    pub(in crate::scene) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Option<MinimiserKind>, D::Error> {
+        let name = String::deserialize(from)?;
+        MinimiserKind::by_name(&name).map(Some).ok_or_else(|| {
+            let known = MinimiserKind::ALL.map(MinimiserKind::name);
+            D::Error::custom(format!(
+                "no minimiser is called \"{name}\"; {}",
+                advice(&name, &known)
+            ))
+        })
     }
 }
 

@@ -35,14 +35,15 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # fill = true                    # false: write the bodies only
 
 [packing]
-# method = "hybrid"              # `sphpack list methods`
+# method = "balanced"            # `sphpack list methods`
 # kernel = "quintic"             # `sphpack list kernels`
 # h_over_spacing = 1.2           # smoothing length over spacing
 # lattice = "auto"               # the start: `sphpack list lattices`
 # frozen = "lattice"             # particles outside the box: the lattice continued, or a "square" ring
-# velocity_tolerance = 1e-4      # stop here (methods that damp: hybrid)
-# residual_tolerance = 1e-3      # stop here (methods that minimise)
-# finish = "even"                # methods that minimise: even | consistent
+# finish = "even"                # even: pairs stay apart | consistent: no net pressure force on any free particle
+# residual_tolerance = 1e-3      # stop where no force times h is larger (methods that minimise; consistent: 1e-5)
+# velocity_tolerance = 1e-4      # stop where nothing is faster (methods that damp: hybrid)
+# minimiser = "lbfgs"            # lbfgs | fire | damped; hybrid has none unless one is named
 # max_iterations = 20000
 # seed = 0                       # for methods that draw random numbers
 

@@ -80,6 +80,7 @@ fn a_cylinder_with_every_file() {
         "particles",
         "density",
         "residual",
+        "closest_pair_over_spacing",
         "surface",
         "bodies",
         "seconds",

@@ -1,0 +1,128 @@
+//! The course of a packing, the same for every method: clock, progress, history, and the result at its end.
+
+use std::time::Instant;
+
+use sphpack_neighbors::point;
+
+use crate::forces::{Forces, largest};
+use crate::lattice::Filling;
+use crate::observer::{Observer, Phase, Progress, Sample};
+use crate::packed::{Packed, ParticleSurface, Seconds, StopReason};
+use crate::particles::{Kind, Particles};
+use crate::problem::Problem;
+
+/// What a method keeps beside its particles.
+pub(crate) struct Course<'a> {
+    begin: Instant,
+    observer: &'a mut dyn Observer,
+    history: Vec<Sample>,
+    /// Where the time went so far; a method fills in what only it knows.
+    pub(crate) seconds: Seconds,
+    /// What the observer is told next.
+    pub(crate) progress: Progress,
+    /// Whether the observer wants an end.
+    pub(crate) interrupted: bool,
+}
+
+impl<'a> Course<'a> {
+    /// Starts the clock of a method that stops at `tolerance` or after `max_evaluations`.
+    pub(crate) fn new(
+        observer: &'a mut dyn Observer,
+        tolerance: f64,
+        max_evaluations: usize,
+    ) -> Self {
+        Self {
+            begin: Instant::now(),
+            observer,
+            history: Vec::new(),
+            seconds: Seconds::default(),
+            progress: Progress {
+                phase: Phase::Geometry,
+                evaluation: 0,
+                max_evaluations,
+                criterion: f64::INFINITY,
+                tolerance,
+                on_surface: 0,
+                target: 0,
+                seconds: 0.0,
+            },
+            interrupted: false,
+        }
+    }
+
+    /// Tells the observer that a phase begins.
+    pub(crate) fn enter(&mut self, phase: Phase) {
+        self.progress.phase = phase;
+        self.tell();
+    }
+
+    /// Tells the observer where `progress` stands.
+    pub(crate) fn tell(&mut self) {
+        self.progress.seconds = self.begin.elapsed().as_secs_f64();
+        self.interrupted |= self.observer.progress(&self.progress).is_break();
+    }
+
+    /// Notes the figures of the last evaluation.
+    pub(crate) fn note<const D: usize>(&mut self, forces: &Forces<D>, particles: &Particles<D>) {
+        self.progress.seconds = self.begin.elapsed().as_secs_f64();
+        let kind = &particles.kind;
+        let of = |wanted: bool, value: f64| if wanted { value } else { 0.0 };
+        self.history.push(Sample {
+            evaluation: self.progress.evaluation,
+            energy: forces.energy() / forces.list().targets().max(1) as f64,
+            residual: forces.smoothing_length()
+                * largest(kind.len(), |i| {
+                    of(kind[i] == Kind::Free, point::norm(forces.gradient(i)))
+                }),
+            linf: largest(kind.len(), |i| {
+                of(kind[i] != Kind::Frozen, (forces.gamma(i) - 1.0).abs())
+            }),
+            seconds: self.progress.seconds,
+        });
+    }
+
+    /// The result: the clock stops.
+    pub(crate) fn end<const D: usize>(
+        mut self,
+        problem: &Problem<D>,
+        mut particles: Particles<D>,
+        frozen_lattice: Filling<D>,
+        surfaces: Vec<ParticleSurface<D>>,
+        forces: &Forces<D>,
+        stop_reason: StopReason,
+    ) -> Packed<D> {
+        if problem.domain.is_periodic() {
+            for (x, kind) in particles.position.iter_mut().zip(&particles.kind) {
+                if *kind == Kind::Free {
+                    *x = problem.domain.wrap(*x);
+                }
+            }
+        }
+        (self.seconds.neighbors, self.seconds.forces) = forces.seconds();
+        self.seconds.total = self.begin.elapsed().as_secs_f64();
+        Packed {
+            particles,
+            domain: problem.domain,
+            spacing: problem.spacing,
+            lattice: problem.chosen_lattice(),
+            frozen_lattice,
+            kernel: problem.kernel,
+            h_over_spacing: problem.h_over_spacing,
+            bodies: problem
+                .bodies
+                .iter()
+                .map(|body| body.name.clone())
+                .collect(),
+            surfaces,
+            stop_reason: if self.interrupted {
+                StopReason::Interrupted
+            } else {
+                stop_reason
+            },
+            iterations: self.progress.evaluation,
+            force_evaluations: forces.evaluations(),
+            history: self.history,
+            seconds: self.seconds,
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! FIRE, the fast inertial relaxation engine.
+
+use super::{Landscape, Minimiser, Step, vectors};
+use sphpack_neighbors::point;
+
+/// Dynamics without damping whose velocity is steered along the force, sped up while it runs downhill and stopped
+/// where it runs uphill (Bitzek, Koskinen, Gähler, Moseler, Gumbsch, PRL 97, 170201, 2006; velocities first, as in
+/// Guénolé et al., Comput. Mater. Sci. 175, 109584, 2020).
+#[derive(Debug, Clone)]
+pub struct Fire<const D: usize> {
+    /// Steps are no longer than this, in ∆s.
+    pub step_over_spacing: f64,
+    velocity: Vec<[f64; D]>,
+    place: Vec<[f64; D]>,
+    /// Time step in h, for p_b = 1.
+    dt_over_h: f64,
+    steer: f64,
+    downhill: usize,
+}
+
+/// Time steps in h: at first, and at most. The stiffest mode of a quintic lattice allows 1.6 h.
+const FIRST_STEP: f64 = 0.4;
+const LARGEST_STEP: f64 = 0.9;
+const SMALLEST_STEP: f64 = 0.02;
+/// The authors' constants.
+const STEER: f64 = 0.1;
+const STEER_DECAY: f64 = 0.99;
+const GROWTH: f64 = 1.1;
+const SHRINKAGE: f64 = 0.5;
+const PATIENCE: usize = 5;
+
+impl<const D: usize> Default for Fire<D> {
+    fn default() -> Self {
+        Self {
+            step_over_spacing: 0.1,
+            velocity: Vec::new(),
+            place: Vec::new(),
+            dt_over_h: FIRST_STEP,
+            steer: STEER,
+            downhill: 0,
+        }
+    }
+}
+
+impl<const D: usize> Minimiser<D> for Fire<D> {
+    fn step(&mut self, landscape: &mut Landscape<'_, D>) -> Step {
+        self.velocity.resize(landscape.len(), [0.0; D]);
+        let force = landscape.force();
+        let power = vectors::dot(&self.velocity, force);
+        if power > 0.0 {
+            self.downhill += 1;
+            if self.downhill > PATIENCE {
+                self.dt_over_h = (self.dt_over_h * GROWTH).min(LARGEST_STEP);
+                self.steer *= STEER_DECAY;
+            }
+        } else {
+            self.downhill = 0;
+            self.dt_over_h = (self.dt_over_h * SHRINKAGE).max(SMALLEST_STEP);
+            self.steer = STEER;
+            self.velocity.fill([0.0; D]);
+        }
+        let dt = self.dt_over_h * landscape.smoothing_length();
+        for (u, &force) in self.velocity.iter_mut().zip(force) {
+            *u = point::add_scaled(*u, dt, force);
+        }
+        let speed = vectors::dot(&self.velocity, &self.velocity).sqrt();
+        let pull = vectors::dot(force, force).sqrt();
+        if pull > 0.0 {
+            for (u, &force) in self.velocity.iter_mut().zip(force) {
+                let along = point::scale(force, self.steer * speed / pull);
+                *u = point::add_scaled(along, 1.0 - self.steer, *u);
+            }
+        }
+        landscape.make_tangential(&mut self.velocity);
+        let longest = dt * vectors::longest(&self.velocity);
+        let limit = self.step_over_spacing * landscape.spacing();
+        if longest > limit {
+            vectors::scale(&mut self.velocity, limit / longest);
+        }
+        landscape.places(&mut self.place);
+        landscape.move_to(&self.place, dt, &self.velocity);
+        Step::Taken
+    }
+
+    fn reset(&mut self) {
+        self.velocity.clear();
+    }
+}

@@ -1,0 +1,201 @@
+//! The energy over the places of the mobile particles.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+use sphpack_neighbors::point;
+
+use super::vectors;
+use crate::forces::Forces;
+use crate::on_surface::OnSurface;
+use crate::packed::ParticleSurface;
+use crate::particles::Particles;
+use crate::repulsion::Repulsion;
+
+/// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R over the places of the mobile particles, and its forces −∇E;
+/// boundary particles stay on their surfaces, fixed and frozen ones where they are.
+///
+/// E is per ∆s^D and p_b; the force on a particle of that volume is its acceleration for p_b = 1, per scene unit.
+/// Forces are −∇E along the surfaces for any volumes, so long as these do not change.
+#[derive(Debug)]
+pub struct Landscape<'a, const D: usize> {
+    particles: &'a mut Particles<D>,
+    surfaces: &'a [ParticleSurface<D>],
+    forces: Forces<D>,
+    on_surface: OnSurface<D>,
+    spacing: f64,
+    smoothing_length: f64,
+    reach: f64,
+    mobile: Vec<u32>,
+    energy: f64,
+    force: Vec<[f64; D]>,
+    projection_seconds: f64,
+}
+
+impl<'a, const D: usize> Landscape<'a, D> {
+    /// The landscape around the present places, which is evaluated there; boundary particles are put onto their
+    /// surfaces first. `spacing` is ∆s; surfaces are looked for within `reach` (scene units).
+    pub fn new(
+        particles: &'a mut Particles<D>,
+        surfaces: &'a [ParticleSurface<D>],
+        forces: Forces<D>,
+        spacing: f64,
+        reach: f64,
+    ) -> Self {
+        let mobile: Vec<u32> = (0..particles.len())
+            .filter(|&i| particles.kind[i].is_mobile())
+            .map(|i| i as u32)
+            .collect();
+        let mut on_surface = OnSurface::default();
+        on_surface.refresh(particles);
+        let mut landscape = Self {
+            smoothing_length: forces.smoothing_length(),
+            force: vec![[0.0; D]; mobile.len()],
+            particles,
+            surfaces,
+            forces,
+            on_surface,
+            spacing,
+            reach,
+            mobile,
+            energy: 0.0,
+            projection_seconds: 0.0,
+        };
+        landscape.project();
+        landscape.evaluate();
+        landscape
+    }
+
+    /// ∆s, scene units.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// Smoothing length of the kernel, scene units.
+    pub fn smoothing_length(&self) -> f64 {
+        self.smoothing_length
+    }
+
+    /// Number of mobile particles: the length of every vector here.
+    pub fn len(&self) -> usize {
+        self.mobile.len()
+    }
+
+    /// Whether nothing can move.
+    pub fn is_empty(&self) -> bool {
+        self.mobile.is_empty()
+    }
+
+    /// Indices of the mobile particles, ascending.
+    pub fn mobile(&self) -> &[u32] {
+        &self.mobile
+    }
+
+    /// All particles, where they are now.
+    pub fn particles(&self) -> &Particles<D> {
+        self.particles
+    }
+
+    /// Density and force at the last evaluation.
+    pub fn forces(&self) -> &Forces<D> {
+        &self.forces
+    }
+
+    /// Gives the evaluator back.
+    pub fn into_forces(self) -> Forces<D> {
+        self.forces
+    }
+
+    /// Evaluations so far.
+    pub fn evaluations(&self) -> usize {
+        self.forces.evaluations()
+    }
+
+    /// E at the last evaluation.
+    pub fn energy(&self) -> f64 {
+        self.energy
+    }
+
+    /// −∇E of every mobile particle at the last evaluation, along the surface for boundary particles.
+    pub fn force(&self) -> &[[f64; D]] {
+        &self.force
+    }
+
+    /// The largest force, times h: dimensionless, what minimisers bring to zero.
+    pub fn residual(&self) -> f64 {
+        self.smoothing_length * vectors::longest(&self.force)
+    }
+
+    /// Seconds spent on keeping boundary particles on their surfaces.
+    pub fn projection_seconds(&self) -> f64 {
+        self.projection_seconds
+    }
+
+    /// Writes the places of the mobile particles.
+    pub fn places(&self, out: &mut Vec<[f64; D]>) {
+        out.clear();
+        out.extend(
+            self.mobile
+                .iter()
+                .map(|&i| self.particles.position[i as usize]),
+        );
+    }
+
+    /// Puts the mobile particles at `from + step · direction`, boundary ones onto their surface from there, and
+    /// evaluates.
+    pub fn move_to(&mut self, from: &[[f64; D]], step: f64, direction: &[[f64; D]]) {
+        for ((&i, &x), &d) in self.mobile.iter().zip(from).zip(direction) {
+            self.particles.position[i as usize] = point::add_scaled(x, step, d);
+        }
+        self.project();
+        self.evaluate();
+    }
+
+    /// Changes the repulsion, which changes the energy: evaluates anew.
+    pub fn set_repulsion(&mut self, repulsion: Repulsion) {
+        self.forces.repulsion = repulsion;
+        self.evaluate();
+    }
+
+    /// `v` of every mobile particle without its part along the normal of the surface that it sits on.
+    pub fn make_tangential(&self, v: &mut [[f64; D]]) {
+        v.par_iter_mut()
+            .zip(&self.mobile)
+            .with_min_len(4096)
+            .for_each(|(v, &i)| *v = self.on_surface.tangential(i as usize, *v));
+    }
+
+    /// Holds boundary particles where they are from now on.
+    pub fn hold_surface(&mut self) {
+        let kind = &self.particles.kind;
+        self.mobile
+            .retain(|&i| kind[i as usize] == crate::Kind::Free);
+        self.force.resize(self.mobile.len(), [0.0; D]);
+        self.evaluate();
+    }
+
+    fn project(&mut self) {
+        let start = Instant::now();
+        self.on_surface
+            .project(self.particles, self.surfaces, self.reach);
+        self.projection_seconds += start.elapsed().as_secs_f64();
+    }
+
+    fn evaluate(&mut self) {
+        self.forces.evaluate(self.particles);
+        let unit = self.spacing.powi(D as i32);
+        let volume = &self.particles.volume;
+        self.energy = self.forces.weighted_energy(|i| volume[i] / unit);
+        let (forces, on_surface) = (&self.forces, &self.on_surface);
+        self.force
+            .par_iter_mut()
+            .zip(&self.mobile)
+            .with_min_len(4096)
+            .for_each(|(force, &i)| {
+                *force = {
+                    let i = i as usize;
+                    on_surface.tangential(i, forces.weighted_acceleration(i, volume[i] / unit))
+                };
+            });
+    }
+}

@@ -1,0 +1,162 @@
+//! From any start to rest: the schedule that methods share.
+
+use super::{Landscape, MinimiserKind, Step};
+use crate::course::Course;
+use crate::packed::StopReason;
+use crate::repulsion::{REACH_OVER_SPACING, Repulsion, STRENGTH};
+
+/// How particles are left.
+///
+/// The pressure alone would pull some pairs together wherever the lattice has a defect, so evenness and consistency
+/// cannot both be had: a repulsion that holds pairs apart is itself a residual.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Finish {
+    /// A weak repulsion stays on: pairs keep 0.9 ∆s, the pressure's residual is below 10⁻³.
+    #[default]
+    Even,
+    /// Free particles end where the pressure's own forces vanish (zero-order consistency). Surface particles are held
+    /// where an early repulsion spread them, and pairs may come as near as 0.7 ∆s.
+    Consistent,
+}
+
+impl Finish {
+    /// The tolerance of the largest force times h that is worth waiting for.
+    pub fn default_tolerance(self) -> f64 {
+        match self {
+            Self::Even => 1e-3,
+            Self::Consistent => 1e-5,
+        }
+    }
+}
+
+/// Brings particles to rest: under a strong repulsion first, which sorts out the worst, then as the finish asks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settling {
+    /// The minimiser.
+    pub minimiser: MinimiserKind,
+    /// How particles are left.
+    pub finish: Finish,
+    /// Stop when the largest force that is being minimised, times h, is below this; `None` is the finish's default.
+    pub residual_tolerance: Option<f64>,
+    /// Give up after this many evaluations, counted from where settling begins.
+    pub max_evaluations: usize,
+    /// Evaluations under the strong repulsion, at most.
+    pub early_evaluations: usize,
+    /// C of k_r = C ∆s p_b: at first (001's), and at the end of an even finish.
+    pub repulsion: [f64; 2],
+}
+
+impl Default for Settling {
+    fn default() -> Self {
+        Self {
+            minimiser: MinimiserKind::default(),
+            finish: Finish::default(),
+            residual_tolerance: None,
+            max_evaluations: 20_000,
+            early_evaluations: 60,
+            repulsion: [STRENGTH, 0.001],
+        }
+    }
+}
+
+/// Where repulsion begins at a consistent end, in ∆s: it keeps pairs from falling into one another, which they do in
+/// 3-D without, and touches hardly any pair in 2-D.
+const CONSISTENT_REACH: f64 = 0.7;
+
+/// The strong repulsion has done its work where the largest force is below this part of the tolerance.
+const EARLY_END: f64 = 0.3;
+
+/// Evaluations between two lines of the history.
+const NOTE_EVERY: usize = 10;
+
+/// Nothing goes on any more where within [`PATIENCE`] evaluations the largest force has found no new low and the
+/// energy per particle has fallen by less than [`STANDSTILL`].
+const PATIENCE: usize = 200;
+const STANDSTILL: f64 = 1e-8;
+
+impl Settling {
+    /// The tolerance, the finish's default filled in.
+    pub fn tolerance(&self) -> f64 {
+        self.residual_tolerance
+            .unwrap_or_else(|| self.finish.default_tolerance())
+    }
+
+    /// The repulsion to begin with.
+    pub fn early_repulsion(&self, spacing: f64) -> Repulsion {
+        Repulsion::new(spacing, self.repulsion[0])
+    }
+
+    fn last_repulsion(&self, spacing: f64) -> Repulsion {
+        match self.finish {
+            Finish::Even => Repulsion::with_reach(spacing, self.repulsion[1], REACH_OVER_SPACING),
+            Finish::Consistent => {
+                Repulsion::with_reach(spacing, self.repulsion[0], CONSISTENT_REACH)
+            }
+        }
+    }
+
+    /// Settles the landscape's particles; its repulsion should be [`Settling::early_repulsion`].
+    pub(crate) fn run<const D: usize>(
+        &self,
+        landscape: &mut Landscape<'_, D>,
+        course: &mut Course<'_>,
+    ) -> StopReason {
+        let mut minimiser = self.minimiser.build::<D>();
+        let begin = landscape.evaluations();
+        let tolerance = self.tolerance();
+        let mut early = true;
+        let mut noted = 0;
+        let (mut lowest, mut energy_then, mut lowest_at) = (f64::INFINITY, f64::INFINITY, begin);
+        let reason = loop {
+            let used = landscape.evaluations() - begin;
+            if course.interrupted {
+                break StopReason::Interrupted;
+            }
+            if used >= self.max_evaluations {
+                break StopReason::IterationLimit;
+            }
+            let step = minimiser.step(landscape);
+            let evaluations = landscape.evaluations();
+            let residual = landscape.residual();
+            course.progress.evaluation = evaluations;
+            course.progress.criterion = residual;
+            course.tell();
+            if evaluations >= noted + NOTE_EVERY {
+                noted = evaluations;
+                course.note(landscape.forces(), landscape.particles());
+            }
+            if early {
+                let over = evaluations - begin >= self.early_evaluations;
+                let settled = residual < EARLY_END * tolerance;
+                if over || settled || step == Step::Stuck {
+                    early = false;
+                    if self.finish == Finish::Consistent {
+                        landscape.hold_surface();
+                    }
+                    landscape.set_repulsion(self.last_repulsion(landscape.spacing()));
+                    minimiser.reset();
+                    (lowest, lowest_at) = (f64::INFINITY, evaluations);
+                    energy_then = landscape.energy();
+                }
+                continue;
+            }
+            if residual < tolerance {
+                break StopReason::Converged;
+            }
+            if step == Step::Stuck {
+                break StopReason::Stagnated;
+            }
+            if residual < lowest {
+                (lowest, lowest_at, energy_then) = (residual, evaluations, landscape.energy());
+            } else if evaluations > lowest_at + PATIENCE {
+                if energy_then - landscape.energy() < STANDSTILL * landscape.len() as f64 {
+                    break StopReason::Stagnated;
+                }
+                (lowest_at, energy_then) = (evaluations, landscape.energy());
+            }
+        };
+        course.note(landscape.forces(), landscape.particles());
+        course.seconds.projection += landscape.projection_seconds();
+        reason
+    }
+}

@@ -1,0 +1,179 @@
+//! Properties of the landscape and of the ways down it.
+
+use std::sync::Arc;
+
+use proptest::prelude::*;
+use sphpack_geometry::{Cuboid, Surface};
+use sphpack_neighbors::{Domain, point};
+
+use super::*;
+use crate::forces::Forces;
+use crate::packed::ParticleSurface;
+use crate::repulsion::{Repulsion, STRENGTH};
+use crate::seeding::seed;
+use crate::{Kind, Particles, Problem};
+
+fn random(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+}
+
+/// A shaken lattice of every kind of particle, of unequal volumes; boundary particles on the sides of a box.
+fn shaken<const D: usize>(
+    shake: f64,
+    mut state: u64,
+) -> (Problem<D>, Particles<D>, Vec<ParticleSurface<D>>) {
+    let spacing = if D == 2 { 0.08 } else { 0.2 };
+    let problem = Problem::new(Domain::new([0.0; D], [1.0; D]), spacing);
+    let mut particles = seed(&problem).expect("a sound problem").particles;
+    let surface = Cuboid::new([0.25; D], [0.75; D]).expect("a box");
+    for i in 0..particles.len() {
+        particles.volume[i] *= 1.0 + 0.2 * random(&mut state);
+        if particles.kind[i] == Kind::Frozen {
+            continue;
+        }
+        particles.kind[i] = [Kind::Free, Kind::Boundary, Kind::Fixed][i % 3];
+        for k in 0..D {
+            particles.position[i][k] += 2.0 * shake * problem.spacing * random(&mut state);
+        }
+        if particles.kind[i] == Kind::Boundary {
+            // Off the sides' ends, where a step along the surface would turn a corner.
+            let hit = surface.closest(particles.position[i]);
+            if point::distance(hit.point, particles.position[i]) < 0.1 && is_mid_side(hit.point) {
+                particles.body[i] = Some(0);
+            } else {
+                particles.kind[i] = Kind::Free;
+            }
+        }
+    }
+    let surfaces = vec![ParticleSurface {
+        surface: Arc::new(surface),
+        target_count: 0,
+    }];
+    (problem, particles, surfaces)
+}
+
+/// Whether a point of the box's surface is well within one side.
+fn is_mid_side<const D: usize>(p: [f64; D]) -> bool {
+    p.into_iter().filter(|x| (x - 0.5).abs() > 0.2).count() == 1
+}
+
+fn with_landscape<const D: usize, R>(
+    shake: f64,
+    state: u64,
+    work: impl FnOnce(&mut Landscape<'_, D>) -> R,
+) -> R {
+    let (problem, mut particles, surfaces) = shaken::<D>(shake, state);
+    let forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
+    work(&mut landscape)
+}
+
+fn force_is_downhill<const D: usize>(shake: f64, state: u64) -> Result<(), TestCaseError> {
+    with_landscape::<D, _>(shake, state, |landscape| {
+        let mut place = Vec::new();
+        landscape.places(&mut place);
+        let force = landscape.force().to_vec();
+        let mut direction = vec![[0.0; D]; landscape.len()];
+        let mut state = state ^ 0x5555;
+        for d in &mut direction {
+            *d = std::array::from_fn(|_| random(&mut state));
+        }
+        landscape.make_tangential(&mut direction);
+        let slope = vectors::dot(&direction, &force);
+        let step = 1e-5 * landscape.spacing();
+        landscape.move_to(&place, step, &direction);
+        let up = landscape.energy();
+        landscape.move_to(&place, -step, &direction);
+        let difference = (up - landscape.energy()) / (2.0 * step);
+        let scale =
+            vectors::dot(&direction, &direction).sqrt() * vectors::dot(&force, &force).sqrt();
+        prop_assert!(
+            (difference + slope).abs() < 1e-4 * scale,
+            "−dE/ds = {}, force · direction = {slope}",
+            -difference
+        );
+        Ok(())
+    })
+}
+
+fn never_uphill<const D: usize>(shake: f64, state: u64) -> Result<(), TestCaseError> {
+    with_landscape::<D, _>(shake, state, |landscape| {
+        let start = landscape.energy();
+        let mut lbfgs = Lbfgs::default();
+        let mut energy = start;
+        for _ in 0..30 {
+            if lbfgs.step(landscape) == Step::Stuck {
+                break;
+            }
+            prop_assert!(landscape.energy() <= energy * (1.0 + 1e-14));
+            energy = landscape.energy();
+        }
+        prop_assert!(energy < start);
+        let on_surface = landscape.particles();
+        for i in 0..on_surface.len() {
+            if on_surface.kind[i] == Kind::Boundary {
+                let off = on_surface.position[i].map(|x| (x - 0.5).abs());
+                let most = off.into_iter().fold(0.0, f64::max);
+                prop_assert!((most - 0.25).abs() < 1e-12);
+            }
+        }
+        Ok(())
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn forces_are_the_negative_gradient(shake in 0.0..0.3_f64, state in any::<u64>()) {
+        force_is_downhill::<2>(shake, state)?;
+        force_is_downhill::<3>(shake, state)?;
+    }
+
+    #[test]
+    fn accepted_steps_never_raise_the_energy(shake in 0.05..0.4_f64, state in any::<u64>()) {
+        never_uphill::<2>(shake, state)?;
+        never_uphill::<3>(shake, state)?;
+    }
+}
+
+#[test]
+fn every_minimiser_goes_down_and_holds_what_is_held() {
+    for kind in MinimiserKind::ALL {
+        assert_eq!(MinimiserKind::by_name(kind.name()), Some(kind));
+        with_landscape::<2, _>(0.2, 7, |landscape| {
+            let (energy, residual) = (landscape.energy(), landscape.residual());
+            let before = landscape.particles().clone();
+            let mut minimiser = kind.build::<2>();
+            for _ in 0..80 {
+                minimiser.step(landscape);
+            }
+            assert!(landscape.energy() < energy, "{}", kind.name());
+            assert!(landscape.residual() < 0.5 * residual, "{}", kind.name());
+            let after = landscape.particles();
+            for i in 0..after.len() {
+                let moved = point::distance(before.position[i], after.position[i]);
+                assert!(before.kind[i].is_mobile() || moved == 0.0);
+            }
+        });
+    }
+}
+
+#[test]
+fn a_perfect_lattice_stays() {
+    let problem = Problem::new(Domain::new([0.0; 2], [1.0; 2]), 0.1);
+    let mut particles = seed(&problem).expect("a sound problem").particles;
+    let before = particles.position.clone();
+    let forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let mut landscape = Landscape::new(&mut particles, &[], forces, problem.spacing, 1.0);
+    assert!(landscape.residual() < 1e-10);
+    for kind in MinimiserKind::ALL {
+        kind.build::<2>().step(&mut landscape);
+    }
+    for (a, &b) in landscape.particles().position.iter().zip(&before) {
+        assert!(point::distance(*a, b) < 1e-8);
+    }
+}

@@ -1,0 +1,228 @@
+//! The balanced method against its bars, scene by scene.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use sphpack::{Options, Outcome, run as pack};
+use sphpack_packing::{Kind, Silent};
+
+use crate::balanced_rows::{ROWS, Row};
+use crate::reproduce::{Settings, load};
+use crate::root;
+
+const HEAD: &str = "\
+| scene | ∆s | finish | evaluations (bar) | L∞ (bar) | prototype | total variation | 99 % within | worst sits | \
+residual of free max, rms | on the surface / N_s | spacing CV | closest pair / ∆s | volume off | seconds | |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
+";
+
+/// Packs every row; fails where one misses a bar.
+pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+    let mut table = HEAD.to_owned();
+    print!("{HEAD}");
+    let mut missed = Vec::new();
+    for row in ROWS
+        .iter()
+        .filter(|row| settings.wants(row.scene, row.quick))
+    {
+        let line = match run_row(row, settings)? {
+            None => format!("{} | | | | no data | | | | | | | | | |\n", head(row)),
+            Some(outcome) => {
+                let figures = Figures::of(&outcome);
+                let misses = figures.misses(row);
+                if !misses.is_empty() {
+                    missed.push(format!(
+                        "{} {}: {}",
+                        row.scene,
+                        row.spacing,
+                        misses.join(", ")
+                    ));
+                }
+                figures.line(row, &misses)
+            }
+        };
+        print!("{line}");
+        table.push_str(&line);
+    }
+    if settings.write {
+        let path = root().join("docs/balanced.md");
+        let text = format!(
+            "# The balanced method and its bars\n\n\
+             Quintic kernel, h/∆s = 1.2, defaults, no tuning per shape{}. Regenerate with\n\
+             `cargo xtask balanced --data DIR --write`, where DIR holds `bunny.stl`. Rows of at most 350 evaluations\n\
+             are run with a tolerance that is out of reach, to see what patience brings. The prototype is a sketch of\n\
+             the method that came before this implementation. Times are wall-clock seconds from scene to figures and\n\
+             depend on the machine.\n\n{table}",
+            if settings.quick {
+                " (the quick rows only)"
+            } else {
+                ""
+            }
+        );
+        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    if missed.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("missed: {}", missed.join("; ")))
+    }
+}
+
+fn run_row(row: &Row, settings: &Settings) -> Result<Option<Outcome>, String> {
+    let Some(mut scene) = load(row.scene, settings)? else {
+        return Ok(None);
+    };
+    scene.spacing = row.spacing;
+    scene.packing.finish = row.finish;
+    if row.patient {
+        scene.packing.residual_tolerance = Some(1e-9);
+        scene.packing.max_iterations = row.evaluations;
+    } else {
+        scene.packing.max_iterations = row.evaluations.max(600);
+    }
+    pack(&scene, &Options::default(), &mut Silent)
+        .map(Some)
+        .map_err(|error| error.to_string())
+}
+
+/// What is judged of a packing.
+struct Figures {
+    evaluations: usize,
+    linf: f64,
+    total_variation: f64,
+    most: f64,
+    worst: String,
+    residual: [f64; 2],
+    surface: [usize; 2],
+    cv: f64,
+    closest: f64,
+    /// Largest of all bodies' errors, in parts of the body and in particles.
+    volume_off: [f64; 2],
+    seconds: f64,
+    converged: bool,
+}
+
+impl Figures {
+    fn of(outcome: &Outcome) -> Self {
+        let report = &outcome.report;
+        let table = &outcome.table;
+        let mut errors: Vec<(f64, usize)> = (0..table.len())
+            .filter(|&i| table.kind[i] != Kind::Frozen)
+            .map(|i| ((table.gamma[i] - 1.0).abs(), i))
+            .collect();
+        errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let most = errors[(errors.len() * 99 / 100).min(errors.len() - 1)].0;
+        let worst = errors.last().map_or_else(String::new, |&(_, i)| {
+            let place = &table.position[i][..table.dimension];
+            let place: Vec<String> = place.iter().map(|x| format!("{x:.2}")).collect();
+            format!("{} at ({})", table.kind[i].name(), place.join(", "))
+        });
+        let particle = report.spacing.powi(report.dimension as i32);
+        let mut volume_off = [0.0_f64; 2];
+        for body in &report.bodies {
+            let off = (body.volume - body.volume_true).abs();
+            volume_off[0] = volume_off[0].max(off / body.volume_true);
+            volume_off[1] = volume_off[1].max(off / particle);
+        }
+        let sum = |f: fn(&sphpack::SurfaceReport) -> usize| report.surface.iter().map(f).sum();
+        Self {
+            evaluations: report.force_evaluations,
+            linf: report.density.linf,
+            total_variation: report.density.total_variation,
+            most,
+            worst,
+            residual: [report.residual.max, report.residual.rms],
+            surface: [sum(|s| s.count), sum(|s| s.target_count)],
+            cv: report
+                .surface
+                .iter()
+                .map(|s| s.spacing_cv)
+                .fold(0.0, f64::max),
+            closest: report.closest_pair_over_spacing,
+            volume_off,
+            seconds: report.seconds.total,
+            converged: report.converged,
+        }
+    }
+
+    fn misses(&self, row: &Row) -> Vec<String> {
+        let mut misses = Vec::new();
+        let mut need = |holds: bool, what: &str| {
+            if !holds {
+                misses.push(what.to_owned());
+            }
+        };
+        need(
+            row.patient || self.converged || row.rms_bar.is_some(),
+            "not converged",
+        );
+        need(
+            self.evaluations <= row.evaluations + 3 || row.rms_bar.is_some(),
+            "evaluations",
+        );
+        need(self.linf <= row.linf_bar, "L∞");
+        need(row.most_bar.is_none_or(|bar| self.most <= bar), "99 %");
+        need(
+            row.variation_bar
+                .is_none_or(|bar| self.total_variation <= bar),
+            "total variation",
+        );
+        need(
+            row.residual_bar.is_none_or(|bar| self.residual[0] <= bar),
+            "residual",
+        );
+        need(
+            row.rms_bar.is_none_or(|bar| self.residual[1] <= bar),
+            "residual rms",
+        );
+        let [count, target] = self.surface;
+        let allowed = (0.01 * target as f64).max(1.0);
+        need(
+            (count as f64 - target as f64).abs() <= allowed,
+            "surface count",
+        );
+        need(self.cv <= 0.04, "spacing CV");
+        need(self.closest >= row.closest_bar(), "closest pair");
+        need(
+            self.volume_off[0] <= 0.003 || self.volume_off[1] <= 0.5,
+            "volume",
+        );
+        misses
+    }
+
+    fn line(&self, row: &Row, misses: &[String]) -> String {
+        let verdict = if misses.is_empty() {
+            "pass".to_owned()
+        } else {
+            format!("**{}**", misses.join(", "))
+        };
+        let mut line = head(row);
+        let percent = |x: f64| format!("{:.3} %", 100.0 * x);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            line,
+            " | {} ({}) | {} ({}) | {} | {} | {} | {} | {:.1e}, {:.1e} | {} / {} | {:.1} % | {:.3} | {:.1e} | {:.2} | {verdict} |",
+            self.evaluations,
+            row.evaluations,
+            percent(self.linf),
+            percent(row.linf_bar),
+            row.prototype,
+            percent(self.total_variation),
+            percent(self.most),
+            self.worst,
+            self.residual[0],
+            self.residual[1],
+            self.surface[0],
+            self.surface[1],
+            100.0 * self.cv,
+            self.closest,
+            self.volume_off[0],
+            self.seconds,
+        );
+        line
+    }
+}
+
+fn head(row: &Row) -> String {
+    format!("| {} | {} | {}", row.scene, row.spacing, row.finish_name())
+}
