@@ -9,8 +9,15 @@ use crate::Number;
 ///
 /// Distances and smoothing lengths share a unit; values have that unit to the power −D.
 pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
+    /// The shape, in units of h. Pair loops work with it and scale sums instead of terms: W = [`Kernel::scale`] · w(q),
+    /// dW/dr = [`Kernel::scale`] / h · w'(q).
+    type Profile: Profile<D>;
+
     /// The smoothing length h.
     fn smoothing_length(&self) -> f64;
+
+    /// σ/h^D.
+    fn scale(&self) -> f64;
 
     /// The support radius: the kernel is zero from here on.
     fn support(&self) -> f64;
@@ -22,8 +29,8 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
     fn slope(&self, r: f64) -> f64;
 
     /// W and (dW/dr)/r from the **squared** distance, without branches: what a pair loop needs, since
-    /// ∇W = (dW/dr)/r · (x_i − x_j). The second is finite at `r = 0`. For one pair (`f64`) or several at a time.
-    fn value_and_slope_over_r<N: Number>(&self, r_squared: N) -> (N, N);
+    /// ∇W = (dW/dr)/r · (x_i − x_j). The second is finite at `r = 0`.
+    fn value_and_slope_over_r(&self, r_squared: f64) -> (f64, f64);
 
     /// W(0), a particle's own share of its summation density.
     fn value_at_origin(&self) -> f64 {
@@ -44,20 +51,26 @@ pub trait Profile<const D: usize>: Copy + Debug + Default + Send + Sync {
     const SUPPORT: f64;
     /// The normalisation σ, so that ∫ σ w(|x|) dx = 1 over ℝ^D.
     const SIGMA: f64;
+    /// Where each piece begins, in units of h, ascending from 0: from `STARTS[p]` on piece p is exact, and no dearer than
+    /// the pieces before it.
+    const STARTS: [f64; PIECES];
+    /// The factor that [`Profile::value_and_slope`] leaves out of the slope.
+    const SLOPE: f64;
 
-    /// w(q), zero for q ≥ [`Profile::SUPPORT`].
-    fn value<N: Number>(q: N) -> N;
-
-    /// w'(q)/q, finite for q → 0 as long as `q > 0`.
-    fn slope_over_q<N: Number>(q: N) -> N;
+    /// w(q) and w'(q)/[`Profile::SLOPE`] for q = r · `inverse` with `q ≥ STARTS[PIECE]`; zero for
+    /// q ≥ [`Profile::SUPPORT`]. `inverse` is 1/h.
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N);
 }
+
+/// How many pieces a profile may have.
+pub const PIECES: usize = 3;
 
 /// A profile scaled to a smoothing length; the concrete kernels are aliases of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scaled<P, const D: usize> {
     smoothing_length: f64,
     inverse: f64,
-    value_scale: f64,
+    scale: f64,
     slope_scale: f64,
     profile: PhantomData<P>,
 }
@@ -65,24 +78,31 @@ pub struct Scaled<P, const D: usize> {
 impl<P: Profile<D>, const D: usize> Scaled<P, D> {
     /// The kernel of smoothing length `h` (scene units, positive).
     pub fn new(h: f64) -> Self {
-        let value_scale = P::SIGMA / h.powi(D as i32);
+        let scale = P::SIGMA / h.powi(D as i32);
         Self {
             smoothing_length: h,
             inverse: 1.0 / h,
-            value_scale,
-            slope_scale: value_scale / (h * h),
+            scale,
+            slope_scale: scale * P::SLOPE / (h * h),
             profile: PhantomData,
         }
     }
 }
 
 /// Below this q the slope is taken at this q: the quotient w'(q)/q would lose its digits, its limit is reached.
-const SMALLEST_Q_SQUARED: f64 = 1e-16;
+pub const SMALLEST_Q: f64 = 1e-8;
 
 impl<P: Profile<D>, const D: usize> Kernel<D> for Scaled<P, D> {
+    type Profile = P;
+
     #[inline(always)]
     fn smoothing_length(&self) -> f64 {
         self.smoothing_length
+    }
+
+    #[inline(always)]
+    fn scale(&self) -> f64 {
+        self.scale
     }
 
     #[inline(always)]
@@ -92,7 +112,7 @@ impl<P: Profile<D>, const D: usize> Kernel<D> for Scaled<P, D> {
 
     #[inline(always)]
     fn value(&self, r: f64) -> f64 {
-        self.value_scale * P::value(r * self.inverse)
+        self.scale * P::value_and_slope::<f64, 0>(r, self.inverse).0
     }
 
     #[inline(always)]
@@ -101,13 +121,11 @@ impl<P: Profile<D>, const D: usize> Kernel<D> for Scaled<P, D> {
     }
 
     #[inline(always)]
-    fn value_and_slope_over_r<N: Number>(&self, r_squared: N) -> (N, N) {
-        let q_squared = r_squared * r_squared.constant(self.inverse * self.inverse);
-        let q = q_squared.at_least(SMALLEST_Q_SQUARED).sqrt();
-        (
-            q.constant(self.value_scale) * P::value(q),
-            q.constant(self.slope_scale) * P::slope_over_q(q),
-        )
+    fn value_and_slope_over_r(&self, r_squared: f64) -> (f64, f64) {
+        let q_squared = r_squared * (self.inverse * self.inverse);
+        let q = q_squared.at_least(SMALLEST_Q * SMALLEST_Q).sqrt();
+        let (value, slope) = P::value_and_slope::<f64, 0>(q, 1.0);
+        (self.scale * value, self.slope_scale * slope / q)
     }
 }
 
@@ -120,8 +138,9 @@ pub(crate) const fn per_dimension(dimension: usize, table: [f64; 3]) -> f64 {
     table[dimension - 1]
 }
 
-/// max(join − q, 0), the piece of a spline below its join.
+/// max(join − r/h, 0), the piece of a spline below its join.
 #[inline(always)]
-pub(crate) fn below<N: Number>(join: f64, q: N) -> N {
-    (q.constant(join) - q).positive()
+pub(crate) fn below<N: Number>(join: f64, r: N, inverse: f64) -> N {
+    r.multiply_add(r.constant(-inverse), r.constant(join))
+        .positive()
 }

@@ -38,7 +38,7 @@ mod tests;
 
 pub use cohesion::Cohesion;
 pub use cubic::{Cubic, CubicProfile};
-pub use kernel::{Kernel, Profile, Scaled};
+pub use kernel::{Kernel, PIECES, Profile, SMALLEST_Q, Scaled};
 pub use kind::{KernelKind, UnknownKernel, WithKernel};
 pub use number::Number;
 pub use quintic::{Quintic, QuinticProfile};

@@ -1,17 +1,12 @@
 //! What kernels compute with: one number, or several side by side.
 
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Mul, Sub};
 
 /// A number, or a fixed count of numbers worked on at the same time. Implemented for `f64`; a vector type of several
 /// lanes needs a newtype of the caller's.
-pub trait Number:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
+pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// The constant `c`, in the shape of `self`, whose value does not matter.
     fn constant(self, c: f64) -> Self;
-
-    /// √self.
-    fn sqrt(self) -> Self;
 
     /// max(self, c).
     fn at_least(self, c: f64) -> Self;
@@ -30,11 +25,6 @@ impl Number for f64 {
     #[inline(always)]
     fn constant(self, c: f64) -> Self {
         c
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
     }
 
     #[inline(always)]

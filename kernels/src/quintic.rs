@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::Number;
-use crate::kernel::{Profile, Scaled, below, per_dimension};
+use crate::kernel::{PIECES, Profile, Scaled, below, per_dimension};
 
 /// The quintic spline M₆, support 3h (paper 001 eq. 14; σ₃ of paper 000 eq. 3 is a misprint).
 ///
@@ -17,20 +17,30 @@ pub struct QuinticProfile;
 impl<const D: usize> Profile<D> for QuinticProfile {
     const SUPPORT: f64 = 3.0;
     const SIGMA: f64 = per_dimension(D, [1.0 / 120.0, 7.0 / (478.0 * PI), 1.0 / (120.0 * PI)]);
+    const STARTS: [f64; PIECES] = [0.0, 1.0, 2.0];
+    const SLOPE: f64 = -5.0;
 
+    // Value and slope share the fourth powers with their factors: w = Σ c_k (k−q)⁴ · (k−q), w' = −5 Σ c_k (k−q)⁴.
     #[inline(always)]
-    fn value<N: Number>(q: N) -> N {
-        let (a, b, c) = (below(3.0, q), below(2.0, q), below(1.0, q));
-        let (a2, b2, c2) = (a * a, b * b, c * c);
-        let outer = (a2 * a2).multiply_add(a, q.constant(-6.0) * (b2 * b2 * b));
-        (q.constant(15.0) * c2 * c2).multiply_add(c, outer)
-    }
-
-    #[inline(always)]
-    fn slope_over_q<N: Number>(q: N) -> N {
-        let (a, b, c) = (below(3.0, q), below(2.0, q), below(1.0, q));
-        let (a2, b2, c2) = (a * a, b * b, c * c);
-        let outer = (q.constant(30.0) * b2).multiply_add(b2, q.constant(-5.0) * a2 * a2);
-        (q.constant(-75.0) * c2).multiply_add(c2, outer) / q
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+        let a = below(3.0, r, inverse);
+        let a2 = a * a;
+        let mut slope = a2 * a2;
+        let mut value = slope * a;
+        if PIECE < 2 {
+            let b = below(2.0, r, inverse);
+            let b2 = b * b;
+            let b4 = b2 * b2 * r.constant(-6.0);
+            slope = slope + b4;
+            value = b4.multiply_add(b, value);
+        }
+        if PIECE < 1 {
+            let c = below(1.0, r, inverse);
+            let c2 = c * c;
+            let c4 = c2 * c2 * r.constant(15.0);
+            slope = slope + c4;
+            value = c4.multiply_add(c, value);
+        }
+        (value, slope)
     }
 }

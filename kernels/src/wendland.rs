@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use crate::Number;
-use crate::kernel::{Profile, Scaled, per_dimension};
+use crate::kernel::{PIECES, Profile, Scaled, per_dimension};
 
 /// C2: (1−s)³(1+3s) in 1-D, (1−s)⁴(1+4s) in 2-D and 3-D; σ = 5/8, 7/(4π), 21/(16π).
 pub type WendlandC2<const D: usize> = Scaled<WendlandC2Profile, D>;
@@ -25,11 +25,15 @@ pub struct WendlandC4Profile;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct WendlandC6Profile;
 
-/// 1 − s and s for s = q/2, the first cut at zero.
+/// One formula from the centre to the support.
+const ONE_PIECE: [f64; PIECES] = [0.0; PIECES];
+
+/// 1 − s, s and q for s = q/2, the first cut at zero.
 #[inline(always)]
-fn inward<N: Number>(q: N) -> (N, N) {
-    let s = q.constant(0.5) * q;
-    ((q.constant(1.0) - s).positive(), s)
+fn inward<N: Number>(r: N, inverse: f64) -> (N, N, N) {
+    let q = r * r.constant(inverse);
+    let s = q * q.constant(0.5);
+    ((q.constant(1.0) - s).positive(), s, q)
 }
 
 /// c₀ + c₁ s + c₂ s² + …
@@ -45,27 +49,17 @@ fn polynomial<N: Number, const M: usize>(s: N, coefficients: [f64; M]) -> N {
 impl<const D: usize> Profile<D> for WendlandC2Profile {
     const SUPPORT: f64 = 2.0;
     const SIGMA: f64 = per_dimension(D, [5.0 / 8.0, 7.0 / (4.0 * PI), 21.0 / (16.0 * PI)]);
+    const STARTS: [f64; PIECES] = ONE_PIECE;
+    const SLOPE: f64 = per_dimension(D, [-3.0, -5.0, -5.0]);
 
     #[inline(always)]
-    fn value<N: Number>(q: N) -> N {
-        let (t, s) = inward(q);
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+        let (t, s, q) = inward(r, inverse);
         let t2 = t * t;
         if D == 1 {
-            t2 * t * polynomial(s, [1.0, 3.0])
+            (t2 * t * polynomial(s, [1.0, 3.0]), t2 * q)
         } else {
-            t2 * t2 * polynomial(s, [1.0, 4.0])
-        }
-    }
-
-    // w'(q)/q = (dw/ds)/s / 4.
-    #[inline(always)]
-    fn slope_over_q<N: Number>(q: N) -> N {
-        let (t, s) = inward(q);
-        let t2 = t * t;
-        if D == 1 {
-            t2 * s.constant(-3.0)
-        } else {
-            t2 * t * s.constant(-5.0)
+            (t2 * t2 * polynomial(s, [1.0, 4.0]), t2 * t * q)
         }
     }
 }
@@ -73,27 +67,24 @@ impl<const D: usize> Profile<D> for WendlandC2Profile {
 impl<const D: usize> Profile<D> for WendlandC4Profile {
     const SUPPORT: f64 = 2.0;
     const SIGMA: f64 = per_dimension(D, [3.0 / 4.0, 9.0 / (4.0 * PI), 495.0 / (256.0 * PI)]);
+    const STARTS: [f64; PIECES] = ONE_PIECE;
+    const SLOPE: f64 = per_dimension(D, [-3.5, -14.0 / 3.0, -14.0 / 3.0]);
 
     #[inline(always)]
-    fn value<N: Number>(q: N) -> N {
-        let (t, s) = inward(q);
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+        let (t, s, q) = inward(r, inverse);
         let t2 = t * t;
+        let t4 = t2 * t2;
         if D == 1 {
-            t2 * t2 * t * polynomial(s, [1.0, 5.0, 8.0])
+            (
+                t4 * t * polynomial(s, [1.0, 5.0, 8.0]),
+                t4 * q * polynomial(s, [1.0, 4.0]),
+            )
         } else {
-            t2 * t2 * t2 * polynomial(s, [1.0, 6.0, 35.0 / 3.0])
-        }
-    }
-
-    // w'(q)/q = (dw/ds)/s / 4.
-    #[inline(always)]
-    fn slope_over_q<N: Number>(q: N) -> N {
-        let (t, s) = inward(q);
-        let t2 = t * t;
-        if D == 1 {
-            t2 * t2 * polynomial(s, [-3.5, -14.0])
-        } else {
-            t2 * t2 * t * polynomial(s, [-14.0 / 3.0, -70.0 / 3.0])
+            (
+                t4 * t2 * polynomial(s, [1.0, 6.0, 35.0 / 3.0]),
+                t4 * t * q * polynomial(s, [1.0, 5.0]),
+            )
         }
     }
 }
@@ -101,27 +92,24 @@ impl<const D: usize> Profile<D> for WendlandC4Profile {
 impl<const D: usize> Profile<D> for WendlandC6Profile {
     const SUPPORT: f64 = 2.0;
     const SIGMA: f64 = per_dimension(D, [55.0 / 64.0, 39.0 / (14.0 * PI), 1365.0 / (512.0 * PI)]);
+    const STARTS: [f64; PIECES] = ONE_PIECE;
+    const SLOPE: f64 = per_dimension(D, [-4.5, -5.5, -5.5]);
 
     #[inline(always)]
-    fn value<N: Number>(q: N) -> N {
-        let (t, s) = inward(q);
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+        let (t, s, q) = inward(r, inverse);
         let t2 = t * t;
+        let t4 = t2 * t2;
         if D == 1 {
-            t2 * t2 * t2 * t * polynomial(s, [1.0, 7.0, 19.0, 21.0])
+            (
+                t4 * t2 * t * polynomial(s, [1.0, 7.0, 19.0, 21.0]),
+                t4 * t2 * q * polynomial(s, [1.0, 6.0, 52.5 / 4.5]),
+            )
         } else {
-            (t2 * t2) * (t2 * t2) * polynomial(s, [1.0, 8.0, 25.0, 32.0])
-        }
-    }
-
-    // w'(q)/q = (dw/ds)/s / 4.
-    #[inline(always)]
-    fn slope_over_q<N: Number>(q: N) -> N {
-        let (t, s) = inward(q);
-        let t2 = t * t;
-        if D == 1 {
-            t2 * t2 * t2 * polynomial(s, [-4.5, -27.0, -52.5])
-        } else {
-            t2 * t2 * t2 * t * polynomial(s, [-5.5, -38.5, -88.0])
+            (
+                t4 * t4 * polynomial(s, [1.0, 8.0, 25.0, 32.0]),
+                t4 * t2 * t * q * polynomial(s, [1.0, 7.0, 16.0]),
+            )
         }
     }
 }

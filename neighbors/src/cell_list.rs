@@ -9,6 +9,15 @@ use crate::{Bounds, Domain, LANES, point};
 /// A source as the pair loop reads it: coordinates (zero beyond D) and its weight, usually the volume, last.
 pub type Slot = [f64; 4];
 
+/// Shells that candidates are sorted into, by their distance from the block.
+pub const SHELLS: usize = 4;
+
+/// Runs of candidates in a block: shell by shell the targets, then shell by shell the other sources.
+const RUNS: usize = 2 * SHELLS;
+
+/// Candidates of a run come in groups of this many.
+pub const GROUP: usize = 4;
+
 /// Blocks that one task handles; also the fixed unit of reductions.
 const BLOCKS_PER_CHUNK: usize = 64;
 
@@ -33,6 +42,8 @@ pub struct CellList<const D: usize> {
     domain: Domain<D>,
     support: f64,
     skin: f64,
+    /// Where the shells after the first begin.
+    shells: [f64; SHELLS - 1],
     /// Positions at the last build.
     reference: Vec<[f64; D]>,
     targets: usize,
@@ -43,6 +54,8 @@ pub struct CellList<const D: usize> {
     slot_of: Vec<u32>,
     chunks: Vec<Chunk>,
     cells: Cells<D>,
+    /// Where the slot of nobody is: out of reach of all.
+    nobody: [f64; D],
     builds: usize,
 }
 
@@ -50,7 +63,42 @@ pub struct CellList<const D: usize> {
 struct Chunk {
     /// First candidate of each block, and the end of the last.
     start: Vec<u32>,
+    /// Ends of the runs of each block, from its first candidate.
+    ends: Vec<[u32; RUNS]>,
     candidates: Vec<u32>,
+    /// The runs of the block that is being built.
+    runs: [Vec<u32>; RUNS],
+}
+
+impl Chunk {
+    fn clear(&mut self) {
+        self.start.clear();
+        self.ends.clear();
+        self.candidates.clear();
+        self.start.push(0);
+    }
+
+    /// Ends a block: makes every run a multiple of [`GROUP`] by moving candidates to the next inner shell, and the
+    /// innermost by the slot of nobody.
+    fn finish_block(&mut self, nobody: u32) {
+        let first = self.candidates.len();
+        for run in (0..RUNS).rev() {
+            while !self.runs[run].len().is_multiple_of(GROUP) {
+                if run % SHELLS == 0 {
+                    self.runs[run].push(nobody);
+                } else if let Some(slot) = self.runs[run].pop() {
+                    self.runs[run - 1].push(slot);
+                }
+            }
+        }
+        let mut ends = [0; RUNS];
+        for (run, end) in self.runs.iter_mut().zip(&mut ends) {
+            self.candidates.append(run);
+            *end = (self.candidates.len() - first) as u32;
+        }
+        self.ends.push(ends);
+        self.start.push(self.candidates.len() as u32);
+    }
 }
 
 /// Up to [`LANES`] targets and the slots of everything that may be within their support.
@@ -60,8 +108,26 @@ pub struct Block<'a> {
     pub first_slot: usize,
     /// How many targets there are, 1 … [`LANES`].
     pub len: usize,
-    /// Slots of the candidates, each once, the targets themselves among them.
+    /// Slots of the candidates, each once, the targets themselves among them; and the slot of nobody, which weighs
+    /// nothing and is out of reach, here and there.
     pub candidates: &'a [u32],
+    ends: &'a [u32; RUNS],
+}
+
+impl<'a> Block<'a> {
+    /// The candidates in groups: of shell after shell those that are targets, then of shell after shell the others.
+    #[inline(always)]
+    pub fn groups(&self) -> &'a [[u32; GROUP]] {
+        self.candidates.as_chunks().0
+    }
+
+    /// How many groups a shell has.
+    #[inline(always)]
+    pub fn groups_in(&self, shell: usize, are_targets: bool) -> usize {
+        let run = if are_targets { shell } else { SHELLS + shell };
+        let start = if run == 0 { 0 } else { self.ends[run - 1] };
+        (self.ends[run] - start) as usize / GROUP
+    }
 }
 
 impl<const D: usize> CellList<D> {
@@ -71,6 +137,8 @@ impl<const D: usize> CellList<D> {
             domain: *domain,
             support,
             skin: 0.0,
+            shells: [f64::INFINITY; SHELLS - 1],
+            nobody: [0.0; D],
             reference: Vec::new(),
             targets: 0,
             particle: Vec::new(),
@@ -86,6 +154,23 @@ impl<const D: usize> CellList<D> {
     #[must_use]
     pub fn with_skin(self, skin: f64) -> Self {
         Self { skin, ..self }
+    }
+
+    /// [`CellList::set_shells`] from the start.
+    #[must_use]
+    pub fn with_shells(mut self, radii: [f64; SHELLS - 1]) -> Self {
+        self.set_shells(radii);
+        self
+    }
+
+    /// Sorts the candidates of every block into shells: as long as a list holds, those of shell `s` are at least
+    /// `radii[s − 1]` away from every target of the block. Radii (scene units) ascend; without them all is shell 0.
+    /// Other radii than before make the next [`CellList::update`] build anew.
+    pub fn set_shells(&mut self, radii: [f64; SHELLS - 1]) {
+        if radii != self.shells {
+            self.shells = radii;
+            self.invalidate();
+        }
     }
 
     /// The support radius.
@@ -205,25 +290,32 @@ impl<const D: usize> CellList<D> {
         self.chunks
             .resize_with(blocks.div_ceil(BLOCKS_PER_CHUNK), Chunk::default);
         let (cells, targets) = (&self.cells, self.targets);
+        // Both ends of a pair may come half a skin nearer.
+        let begins = self.shells.map(|r| (r + self.skin) * (r + self.skin));
+        let nobody = sources.len() as u32;
+        self.nobody = point::add(Bounds::of(&sources).max, [2.0 * reach; D]);
         self.chunks
             .par_iter_mut()
             .enumerate()
             .for_each(|(number, chunk)| {
-                chunk.start.clear();
-                chunk.candidates.clear();
-                chunk.start.push(0);
+                chunk.clear();
                 let first = number * BLOCKS_PER_CHUNK;
                 for block in first..(first + BLOCKS_PER_CHUNK).min(blocks) {
                     let members = block * LANES..((block + 1) * LANES).min(targets);
                     let bounds = Bounds::of(&sources[members]);
                     cells.for_each_run(&bounds.grown(reach), |run| {
                         for &slot in run {
-                            if bounds.distance_squared(sources[slot as usize]) <= reach * reach {
-                                chunk.candidates.push(slot);
+                            let r_squared = bounds.distance_squared(sources[slot as usize]);
+                            if r_squared <= reach * reach {
+                                let mut run = if (slot as usize) < targets { 0 } else { SHELLS };
+                                for begin in begins {
+                                    run += usize::from(r_squared >= begin);
+                                }
+                                chunk.runs[run].push(slot);
                             }
                         }
                     });
-                    chunk.start.push(chunk.candidates.len() as u32);
+                    chunk.finish_block(nobody);
                 }
             });
     }
@@ -280,20 +372,31 @@ impl<const D: usize> CellList<D> {
         sources
     }
 
-    /// Writes every source's present position and weight into its slot; `weights` has one entry per particle.
-    /// O(n), parallel, no allocation once `slots` has its size.
-    pub fn gather(&self, positions: &[[f64; D]], weights: &[f64], slots: &mut Vec<Slot>) {
+    /// Writes every source's present position times `unit` and weight into its slot, and the slot of nobody behind
+    /// them; `weights` has one entry per particle. O(n), parallel, no allocation once `slots` has its size.
+    pub fn gather(
+        &self,
+        positions: &[[f64; D]],
+        weights: &[f64],
+        unit: f64,
+        slots: &mut Vec<Slot>,
+    ) {
         let slot = |number: usize| {
-            let i = self.particle[number] as usize;
+            let Some(&i) = self.particle.get(number) else {
+                let mut slot = [0.0; 4];
+                slot[..D].copy_from_slice(&point::scale(self.nobody, unit));
+                return slot;
+            };
+            let i = i as usize;
             let mut p = positions[i];
             if !self.shift.is_empty() {
                 p = point::add(p, self.shift[number]);
             }
             let mut slot = [0.0, 0.0, 0.0, weights[i]];
-            slot[..D].copy_from_slice(&p);
+            slot[..D].copy_from_slice(&point::scale(p, unit));
             slot
         };
-        (0..self.particle.len())
+        (0..self.particle.len() + 1)
             .into_par_iter()
             .with_min_len(4096)
             .map(slot)
@@ -319,6 +422,7 @@ impl<const D: usize> CellList<D> {
                             first_slot: first + block * LANES,
                             len: out.len(),
                             candidates: &chunk.candidates[range],
+                            ends: &chunk.ends[block],
                         },
                         out,
                     );
@@ -357,6 +461,7 @@ impl<const D: usize> CellList<D> {
             .map(|&other| other as usize)
             .filter(|&other| {
                 other != slot
+                    && other < self.particle.len()
                     && point::distance_squared(position(other), here) <= self.support * self.support
             })
             .map(|other| self.particle[other] as usize)

@@ -20,7 +20,7 @@ pub mod point;
 mod tests;
 
 pub use bounds::Bounds;
-pub use cell_list::{Block, CellList, Slot};
+pub use cell_list::{Block, CellList, GROUP, SHELLS, Slot};
 pub use domain::Domain;
 pub use kd_tree::{Found, KdTree, KdTreeError};
 

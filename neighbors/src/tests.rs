@@ -186,7 +186,7 @@ fn the_same_bits_for_any_number_of_threads() {
             let mut list = CellList::new(&Domain::new([0.0; 3], [1.0; 3]), 0.06).with_skin(0.01);
             list.update(&points, |i| i % 5 != 0);
             let mut slots = Vec::new();
-            list.gather(&points, &vec![1.0; points.len()], &mut slots);
+            list.gather(&points, &vec![1.0; points.len()], 1.0, &mut slots);
             let mut sums = vec![0.0; list.targets()];
             list.for_each_block(&mut sums, |block, out| {
                 for (lane, sum) in out.iter_mut().enumerate() {

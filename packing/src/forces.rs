@@ -2,11 +2,12 @@
 
 use std::time::Instant;
 
+use fearless_simd::Level;
 use rayon::prelude::*;
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{CellList, Domain, Slot};
 
-use crate::pair_sums::{PairLoop, Sums};
+use crate::pair_sums::{self, PairLoop, Shells, Sums};
 use crate::particles::Particles;
 use crate::problem::Problem;
 use crate::repulsion::Repulsion;
@@ -22,6 +23,9 @@ pub struct Forces<const D: usize> {
     /// The repulsion, which may be changed between evaluations.
     pub repulsion: Repulsion,
     list: CellList<D>,
+    /// The farthest that the repulsion has reached so far; what is farther in the list is not asked for it.
+    reach: f64,
+    level: Level,
     slots: Vec<Slot>,
     sums: Vec<Sums<D>>,
     evaluations: usize,
@@ -44,6 +48,8 @@ impl<const D: usize> Forces<D> {
             smoothing_length,
             repulsion,
             list: CellList::new(domain, support.max(repulsion.reach())).with_skin(skin),
+            reach: 0.0,
+            level: Level::new(),
             slots: Vec::new(),
             sums: Vec::new(),
             evaluations: 0,
@@ -78,18 +84,28 @@ impl<const D: usize> Forces<D> {
         is_target: impl Fn(usize) -> bool + Sync,
     ) {
         let start = Instant::now();
+        if self.list.builds() == 0 || self.repulsion.reach() > self.reach {
+            self.reach = self.repulsion.reach().max(self.reach);
+            let reach = self.reach;
+            let shells = Shells { reach };
+            self.list
+                .set_shells(self.kernel.with::<D, _>(self.smoothing_length, shells));
+        }
         if self.list.update(positions, is_target) {
             self.sums.resize(self.list.targets(), Sums::ZERO);
         }
         let listed = Instant::now();
-        self.list.gather(positions, volumes, &mut self.slots);
+        let unit = pair_sums::unit(self.smoothing_length);
+        self.list.gather(positions, volumes, unit, &mut self.slots);
         let pairs = PairLoop {
             list: &self.list,
             slots: &self.slots,
+            unit,
+            level: self.level,
             repulsion: self.repulsion,
             out: &mut self.sums,
         };
-        self.kernel.with(self.smoothing_length, pairs);
+        self.kernel.with(self.smoothing_length * unit, pairs);
         self.evaluations += 1;
         self.neighbor_seconds += (listed - start).as_secs_f64();
         self.force_seconds += listed.elapsed().as_secs_f64();

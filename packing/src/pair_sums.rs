@@ -1,12 +1,16 @@
 //! The pair loop: density, its gradient and the repulsion, eight particles at a time against shared candidates.
 
-use std::ops::{Add, Div, Mul, Sub};
-
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
-use sphpack_kernels::{Kernel, Number, WithKernel};
-use sphpack_neighbors::{Block, CellList, LANES, Slot};
+use sphpack_kernels::{Kernel, Profile, SMALLEST_Q, WithKernel};
+use sphpack_neighbors::{Block, CellList, GROUP, LANES, SHELLS, Slot};
 
-use crate::repulsion::Repulsion;
+use crate::repulsion::{Coefficients, Repulsion};
+
+mod lanes;
+#[cfg(test)]
+mod tests;
+
+use lanes::{Several, roots};
 
 /// The sums of one particle over its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,11 +37,38 @@ impl<const D: usize> Sums<D> {
     };
 }
 
-/// Runs the pair loop over all targets of `list`; to be called through [`sphpack_kernels::KernelKind::with`].
+/// The unit of the pair loop's lengths, in which h is between 1 and 2: single precision can hold every squared distance
+/// there. A power of two, so that no position is rounded.
+pub(crate) fn unit(smoothing_length: f64) -> f64 {
+    (-smoothing_length.log2().floor()).exp2()
+}
+
+/// The radii of the list's shells for a kernel: where the repulsion ends, where its second and third piece begin.
+pub(crate) struct Shells {
+    pub(crate) reach: f64,
+}
+
+impl<const D: usize> WithKernel<D> for Shells {
+    type Output = [f64; SHELLS - 1];
+
+    fn call<K: Kernel<D>>(self, kernel: K) -> Self::Output {
+        let [_, second, third] = K::Profile::STARTS.map(|q| q * kernel.smoothing_length());
+        // Beyond the second shell nothing repels.
+        let second = second.max(self.reach);
+        [self.reach, second, third.max(second)]
+    }
+}
+
+/// Runs the pair loop over all targets of `list`; to be called through [`sphpack_kernels::KernelKind::with`], in the
+/// unit of the slots.
 pub(crate) struct PairLoop<'a, const D: usize> {
     pub(crate) list: &'a CellList<D>,
     pub(crate) slots: &'a [Slot],
+    /// What the positions were multiplied by.
+    pub(crate) unit: f64,
     pub(crate) repulsion: Repulsion,
+    /// The instructions to use.
+    pub(crate) level: Level,
     /// One entry per target slot.
     pub(crate) out: &'a mut [Sums<D>],
 }
@@ -46,22 +77,42 @@ impl<const D: usize> WithKernel<D> for PairLoop<'_, D> {
     type Output = ();
 
     fn call<K: Kernel<D>>(self, kernel: K) {
-        let level = Level::new();
-        let (slots, repulsion, targets) = (self.slots, self.repulsion, self.list.targets());
+        let level = self.level;
+        let h = kernel.smoothing_length();
+        let unit = self.unit;
+        let constants = Constants {
+            smallest: SMALLEST_Q * SMALLEST_Q * h * h,
+            inverse: 1.0 / h,
+            value_scale: kernel.scale() * unit.powi(D as i32),
+            slope_scale: kernel.scale() / h * K::Profile::SLOPE * unit.powi(D as i32 + 1),
+            repulsion: self.repulsion.in_unit(unit),
+        };
+        let slots = self.slots;
         self.list.for_each_block(self.out, |block, out| {
-            dispatch!(level, simd => block_sums(simd, kernel, repulsion, targets, slots, block, out));
+            dispatch!(level, simd => block_sums::<_, K::Profile, D>(simd, &constants, slots, block, out));
         });
     }
+}
+
+/// What the loop needs to know about the kernel and the repulsion, in its unit of length.
+struct Constants {
+    /// Squared distances below this are taken at this.
+    smallest: f64,
+    /// 1/h.
+    inverse: f64,
+    /// From Σ w to Γ.
+    value_scale: f64,
+    /// From Σ w'/SLOPE to ∇Γ.
+    slope_scale: f64,
+    repulsion: Coefficients,
 }
 
 // A closure that does vector arithmetic must be inlined by force, or the vector instructions cannot be inlined into
 // it: so plain loops here, no `from_fn` or `map` over vectors.
 #[inline(always)]
-fn block_sums<S: Simd, K: Kernel<D>, const D: usize>(
+fn block_sums<S: Simd, P: Profile<D>, const D: usize>(
     simd: S,
-    kernel: K,
-    repulsion: Repulsion,
-    targets: usize,
+    constants: &Constants,
     slots: &[Slot],
     block: Block<'_>,
     out: &mut [Sums<D>],
@@ -78,129 +129,166 @@ fn block_sums<S: Simd, K: Kernel<D>, const D: usize>(
                     std::array::from_fn(|lane| slots[block.first_slot + lane.min(last)][k]);
                 x[k] = lanes.simd_into(simd);
             }
-            let reach_squared = f64x8::splat(simd, repulsion.reach() * repulsion.reach());
-            let mut gamma = zero;
-            let mut others = zero;
-            let mut gradient = [zero; D];
-            out.fill(Sums::ZERO);
-            for &candidate in block.candidates {
-                let source = &slots[candidate as usize];
-                let mut d = [zero; D];
-                let mut r_squared = zero;
-                for k in 0..D {
-                    d[k] = x[k] - f64x8::splat(simd, source[k]);
-                    r_squared = d[k].mul_add(d[k], r_squared);
+            let mut walk = Walk {
+                simd,
+                constants,
+                slots,
+                x,
+                gamma: zero,
+                gradient: [zero; D],
+                repulsion: [zero; D],
+                repulsion_energy: zero,
+            };
+            let mut groups = block.groups().iter();
+            let mut of_targets = zero;
+            for are_targets in [true, false] {
+                macro_rules! shell {
+                    ($shell:literal, $piece:literal) => {
+                        for _ in 0..block.groups_in($shell, are_targets) {
+                            let Some(group) = groups.next() else {
+                                break;
+                            };
+                            let near = walk.add::<P, $piece>(group);
+                            if $shell == 0 {
+                                walk.repel(&near, if are_targets { 0.5 } else { 1.0 });
+                            }
+                        }
+                    };
                 }
-                let weight = f64x8::splat(simd, source[3]);
-                let (value, slope_over_r) = kernel.value_and_slope_over_r(Lanes(r_squared));
-                gamma = weight.mul_add(value.0, gamma);
-                let scaled = weight * slope_over_r.0;
-                for k in 0..D {
-                    gradient[k] = scaled.mul_add(d[k], gradient[k]);
-                }
-                let is_other = candidate as usize >= targets;
-                if is_other {
-                    others = weight.mul_add(value.0, others);
-                }
-                if r_squared.simd_lt(reach_squared).any_true() {
-                    let mut apart = [[0.0; LANES]; D];
-                    for k in 0..D {
-                        apart[k] = d[k].into();
-                    }
-                    repel(repulsion, is_other, &apart, &r_squared.into(), out);
+                shell!(0, 0);
+                shell!(1, 0);
+                shell!(2, 1);
+                shell!(3, 2);
+                if are_targets {
+                    of_targets = walk.gamma;
                 }
             }
-            let gamma: [f64; LANES] = gamma.into();
-            let others: [f64; LANES] = others.into();
-            let mut slope = [[0.0; LANES]; D];
-            for k in 0..D {
-                slope[k] = gradient[k].into();
-            }
-            for (lane, sums) in out.iter_mut().enumerate() {
-                sums.gamma = gamma[lane];
-                sums.gamma_of_others = others[lane];
-                sums.gradient = std::array::from_fn(|k| slope[k][lane]);
-            }
+            walk.finish(of_targets, out);
         },
     );
 }
 
-/// Eight numbers side by side, for the kernels.
-#[derive(Clone, Copy)]
-struct Lanes<S: Simd>(f64x8<S>);
-
-impl<S: Simd> Add for Lanes<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
+/// A block on its walk through its candidates.
+struct Walk<'a, S: Simd, const D: usize> {
+    simd: S,
+    constants: &'a Constants,
+    slots: &'a [Slot],
+    /// Coordinates of the targets.
+    x: [f64x8<S>; D],
+    gamma: f64x8<S>,
+    gradient: [f64x8<S>; D],
+    repulsion: [f64x8<S>; D],
+    repulsion_energy: f64x8<S>,
 }
 
-impl<S: Simd> Sub for Lanes<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0 - other.0)
-    }
+/// How far a group is from the targets.
+struct Near<S: Simd, const D: usize> {
+    apart: [[f64x8<S>; D]; GROUP],
+    square: [f64x8<S>; GROUP],
+    /// 1/r.
+    inverse: Several<S>,
 }
 
-impl<S: Simd> Mul for Lanes<S> {
-    type Output = Self;
+impl<S: Simd, const D: usize> Walk<'_, S, D> {
+    /// Adds a group of which all are as far away as the kernel's piece begins.
     #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self(self.0 * other.0)
-    }
-}
-
-impl<S: Simd> Div for Lanes<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Self(self.0 / other.0)
-    }
-}
-
-impl<S: Simd> Number for Lanes<S> {
-    #[inline(always)]
-    fn constant(self, c: f64) -> Self {
-        Self(f64x8::splat(self.0.simd, c))
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
-    }
-
-    #[inline(always)]
-    fn at_least(self, c: f64) -> Self {
-        Self(self.0.max(f64x8::splat(self.0.simd, c)))
-    }
-
-    #[inline(always)]
-    fn multiply_add(self, b: Self, c: Self) -> Self {
-        Self(self.0.mul_add(b.0, c.0))
-    }
-}
-
-/// Adds the repulsion of one candidate to the lanes that it is near to. Out of the hot loop: few candidates are.
-#[inline(never)]
-fn repel<const D: usize>(
-    repulsion: Repulsion,
-    is_other: bool,
-    d: &[[f64; LANES]; D],
-    r_squared: &[f64; LANES],
-    out: &mut [Sums<D>],
-) {
-    for (lane, sums) in out.iter_mut().enumerate() {
-        if r_squared[lane] > 0.0 && r_squared[lane] < repulsion.reach() * repulsion.reach() {
-            let r = r_squared[lane].sqrt();
-            let push = repulsion.acceleration(std::array::from_fn::<_, D, _>(|k| d[k][lane]), r);
+    fn add<P: Profile<D>, const PIECE: usize>(&mut self, group: &[u32; GROUP]) -> Near<S, D> {
+        let simd = self.simd;
+        let zero = f64x8::splat(simd, 0.0);
+        let mut apart = [[zero; D]; GROUP];
+        let mut square = [zero; GROUP];
+        let mut weight = [zero; GROUP];
+        for j in 0..GROUP {
+            let source = &self.slots[group[j] as usize];
             for k in 0..D {
-                sums.repulsion[k] += push[k];
+                apart[j][k] = self.x[k] - f64x8::splat(simd, source[k]);
             }
-            let share = if is_other { 1.0 } else { 0.5 };
-            sums.repulsion_energy += share * repulsion.potential(r);
+            weight[j] = f64x8::splat(simd, source[3]);
+        }
+        for j in 0..GROUP {
+            square[j] = apart[j][0] * apart[j][0];
+        }
+        for k in 1..D {
+            for j in 0..GROUP {
+                square[j] = apart[j][k].mul_add(apart[j][k], square[j]);
+            }
+        }
+        let mut at_least = square;
+        if PIECE == 0 {
+            for j in 0..GROUP {
+                at_least[j] = square[j].max(f64x8::splat(simd, self.constants.smallest));
+            }
+        }
+        let (r, inverse) = roots(Several(at_least));
+        let (value, slope) = P::value_and_slope::<_, PIECE>(r, self.constants.inverse);
+        let scaled = slope * inverse * Several(weight);
+        for j in 0..GROUP {
+            self.gamma = weight[j].mul_add(value.0[j], self.gamma);
+            for k in 0..D {
+                self.gradient[k] = scaled.0[j].mul_add(apart[j][k], self.gradient[k]);
+            }
+        }
+        Near {
+            apart,
+            square,
+            inverse,
+        }
+    }
+
+    /// Adds the repulsion of those of a group that are near to any lane; `share` of the energy is the targets'.
+    #[inline(always)]
+    fn repel(&mut self, near: &Near<S, D>, share: f64) {
+        let simd = self.simd;
+        let constant = |c: f64| f64x8::splat(simd, c);
+        let c = &self.constants.repulsion;
+        let zero = constant(0.0);
+        for j in 0..GROUP {
+            let square = near.square[j];
+            let repelled = square.simd_lt(constant(c.reach_squared)) & square.simd_gt(zero);
+            if repelled.any_true() {
+                // 1/r and r, no nearer than the core.
+                let i = near.inverse.0[j].min(constant(c.inverse_core));
+                let inside = (constant(c.core) - square * near.inverse.0[j]).max(zero);
+                let i2 = i * i;
+                let force =
+                    constant(c.strength) * i2 * i * (constant(3.0 * c.c) * i - constant(2.0));
+                let force = repelled.select(force, zero);
+                let push = force * near.inverse.0[j];
+                for k in 0..D {
+                    self.repulsion[k] = push.mul_add(near.apart[j][k], self.repulsion[k]);
+                }
+                let potential = constant(c.strength) * i2 * (constant(c.c) * i - constant(1.0));
+                let potential = inside.mul_add(force, potential - constant(c.potential_at_reach));
+                let potential = repelled.select(potential, zero);
+                self.repulsion_energy = potential.mul_add(constant(share), self.repulsion_energy);
+            }
+        }
+    }
+
+    /// Writes the sums, each lane's to its particle.
+    #[inline(always)]
+    fn finish(self, of_targets: f64x8<S>, out: &mut [Sums<D>]) {
+        let simd = self.simd;
+        let scale = f64x8::splat(simd, self.constants.value_scale);
+        let gamma: [f64; LANES] = (scale * self.gamma).into();
+        let others: [f64; LANES] = (scale * (self.gamma - of_targets)).into();
+        let scale = f64x8::splat(simd, self.constants.repulsion.energy_scale);
+        let energy: [f64; LANES] = (scale * self.repulsion_energy).into();
+        let scale = f64x8::splat(simd, self.constants.slope_scale);
+        let mut gradient = [[0.0; LANES]; D];
+        let mut repulsion = [[0.0; LANES]; D];
+        for k in 0..D {
+            gradient[k] = (scale * self.gradient[k]).into();
+            repulsion[k] = self.repulsion[k].into();
+        }
+        for (lane, sums) in out.iter_mut().enumerate() {
+            *sums = Sums {
+                gamma: gamma[lane],
+                gamma_of_others: others[lane],
+                gradient: std::array::from_fn(|k| gradient[k][lane]),
+                repulsion: std::array::from_fn(|k| repulsion[k][lane]),
+                repulsion_energy: energy[lane],
+            };
         }
     }
 }

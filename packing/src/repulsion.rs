@@ -1,7 +1,5 @@
 //! The short repulsion that keeps particles apart.
 
-use sphpack_neighbors::point;
-
 /// α: the repulsion ends at α∆s (001 §3.1.2).
 pub const REACH_OVER_SPACING: f64 = 0.95;
 
@@ -72,15 +70,45 @@ impl Repulsion {
         at(r.max(self.core)) - at(self.reach) + self.force(r) * (self.core - r).max(0.0)
     }
 
-    /// The acceleration on a particle at `difference` = x_i − x_j from another; zero where they coincide.
-    #[inline]
-    pub(crate) fn acceleration<const D: usize>(&self, difference: [f64; D], r: f64) -> [f64; D] {
-        if r > 0.0 {
-            point::scale(difference, self.force(r) / r)
+    /// What a pair loop needs, for lengths multiplied by `unit`; forces come out in scene units.
+    pub(crate) fn in_unit(&self, unit: f64) -> Coefficients {
+        // Where nothing repels the core must not be zero: its inverse is a factor.
+        let core = if self.reach > 0.0 {
+            self.core * unit
         } else {
-            [0.0; D]
+            1.0
+        };
+        let at_reach =
+            self.strength * self.c * (self.c / self.reach - 1.0) / (self.reach * self.reach);
+        Coefficients {
+            reach_squared: self.reach * self.reach * unit * unit,
+            core,
+            inverse_core: 1.0 / core,
+            c: self.c * unit,
+            strength: self.strength * self.c * unit * unit * unit,
+            energy_scale: 1.0 / unit,
+            potential_at_reach: if self.reach > 0.0 {
+                at_reach * unit
+            } else {
+                0.0
+            },
         }
     }
+}
+
+/// [`Repulsion`] as a pair loop computes it, in a unit of length of its own: with i = 1/max(r, core) the force is
+/// `strength` i³ (3ci − 2), and the potential, times the unit, `strength` i² (ci − 1) and what the core adds.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Coefficients {
+    pub(crate) reach_squared: f64,
+    pub(crate) core: f64,
+    pub(crate) inverse_core: f64,
+    pub(crate) c: f64,
+    pub(crate) strength: f64,
+    /// One over the unit.
+    pub(crate) energy_scale: f64,
+    /// The potential where the repulsion ends, times the unit.
+    pub(crate) potential_at_reach: f64,
 }
 
 #[cfg(test)]
