@@ -112,9 +112,20 @@ pub struct Block<'a> {
     /// nothing and is out of reach, here and there.
     pub candidates: &'a [u32],
     ends: &'a [u32; RUNS],
+    nobody: u32,
 }
 
 impl<'a> Block<'a> {
+    /// The candidates without nobody.
+    #[inline]
+    pub fn sources(&self) -> impl Iterator<Item = usize> + 'a {
+        let nobody = self.nobody;
+        self.candidates
+            .iter()
+            .filter(move |&&slot| slot != nobody)
+            .map(|&slot| slot as usize)
+    }
+
     /// The candidates in groups: of shell after shell those that are targets, then of shell after shell the others.
     #[inline(always)]
     pub fn groups(&self) -> &'a [[u32; GROUP]] {
@@ -423,6 +434,7 @@ impl<const D: usize> CellList<D> {
                             len: out.len(),
                             candidates: &chunk.candidates[range],
                             ends: &chunk.ends[block],
+                            nobody: self.particle.len() as u32,
                         },
                         out,
                     );

@@ -179,8 +179,8 @@ impl<const D: usize> Pushes<D> {
                 let slot = block.first_slot + lane;
                 let mut sum = [0.0; D];
                 if order[slot] as usize >= held {
-                    for &other in block.candidates {
-                        if let Some(push) = push(slots[slot], slots[other as usize], spacing) {
+                    for other in block.sources() {
+                        if let Some(push) = push(slots[slot], slots[other], spacing) {
                             sum = point::add(sum, push);
                         }
                     }

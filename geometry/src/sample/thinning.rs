@@ -81,9 +81,8 @@ fn neighbors<const D: usize>(
             let i = particle[block.first_slot + lane] as usize;
             found.extend(
                 block
-                    .candidates
-                    .iter()
-                    .map(|&slot| particle[slot as usize])
+                    .sources()
+                    .map(|slot| particle[slot])
                     .filter(|&j| {
                         let j = j as usize;
                         j != i
