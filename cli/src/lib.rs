@@ -40,6 +40,7 @@ mod plan;
 mod report;
 mod run;
 pub mod scene;
+mod seen;
 mod table;
 
 pub use body_file::BodyFile;
@@ -47,7 +48,8 @@ pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};
 pub use plan::{Plan, plan};
 pub use report::{
-    BodyReport, Counts, Density, History, Report, Residual, SCHEMA, SecondsReport, SurfaceReport,
+    BodyReport, Counts, Density, History, MassReport, Report, Residual, SCHEMA, SecondsReport,
+    SurfaceReport,
 };
 pub use run::{Options, Outcome, Packing, Solution, run};
 pub use scene::Scene;

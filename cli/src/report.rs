@@ -1,7 +1,7 @@
 //! What is known about a packing, for machines: the content of report.json.
 
 use serde::Serialize;
-use sphpack_packing::{DensityQuality, ResidualQuality, Sample, SurfaceQuality};
+use sphpack_packing::{DensityQuality, MassCorrection, ResidualQuality, Sample, SurfaceQuality};
 
 use crate::scene::Scene;
 
@@ -51,6 +51,9 @@ pub struct Report {
     pub surface: Vec<SurfaceReport>,
     /// Each body's content.
     pub bodies: Vec<BodyReport>,
+    /// With corrected masses, what that came to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_correction: Option<MassReport>,
     /// Where the time went.
     pub seconds: SecondsReport,
     /// The most memory that the process has held; 0 where unknown.
@@ -181,6 +184,27 @@ pub struct BodyReport {
     pub volume: f64,
     /// Density × `volume`.
     pub mass: f64,
+}
+
+/// What a correction of masses came to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MassReport {
+    /// max |Γ − 1| before.
+    pub linf_before: f64,
+    /// Largest change of a mass, as a part of it.
+    pub spread: f64,
+    /// Sums over all pairs that it took.
+    pub evaluations: usize,
+}
+
+impl From<MassCorrection> for MassReport {
+    fn from(correction: MassCorrection) -> Self {
+        Self {
+            linf_before: correction.linf[0],
+            spread: correction.spread,
+            evaluations: correction.evaluations,
+        }
+    }
 }
 
 /// Seconds.

@@ -1,7 +1,6 @@
 //! The way of the data: scene, problem, particles, labels, figures.
 
-use sphpack_kernels::KernelKind;
-use sphpack_neighbors::{Domain, point};
+use sphpack_neighbors::point;
 use sphpack_packing::{
     Balanced, Fields, Hybrid, Kind, Observer, Packed, Problem, Quality, StopReason,
 };
@@ -12,10 +11,11 @@ use crate::dimension::{Dimension, Space};
 use crate::labels::{Sorted, sort};
 use crate::plan::{Prepared, available_bytes, dimension, judged, prepare};
 use crate::report::{
-    BodyReport, Counts, History, Report, SCHEMA, SecondsReport, SurfaceReport, finite,
+    BodyReport, Counts, History, MassReport, Report, SCHEMA, SecondsReport, SurfaceReport, finite,
     peak_memory_bytes,
 };
-use crate::scene::{Method, Scene};
+use crate::scene::{Masses, Method, Scene};
+use crate::seen::Seen;
 use crate::table::Table;
 
 /// What a run may use.
@@ -94,10 +94,15 @@ where
         loops,
         seconds: built,
     } = prepared;
-    let packed = pack(&problem, scene, observer)?;
-    let Sorted { labels, keep } = sort(&packed, scene)
+    let mut packed = pack(&problem, scene, observer)?;
+    let sorted = sort(&packed, scene)
         .map_err(|e| Error::System(format!("particles cannot be separated: {e}")))?;
-    let fields = measure(&judged(&problem, scene), &problem, &packed);
+    let judge = judged(&problem, scene);
+    let mut seen = Seen::by(&judge, &problem, &packed);
+    let masses = (scene.packing.masses == Masses::Corrected)
+        .then(|| seen.correct(&judge, &mut packed, &sorted, scene.packing.mass_spread));
+    let fields = seen.fields(&judge, &packed.particles.kind);
+    let Sorted { labels, keep } = sorted;
     let quality = packed.quality(&fields);
     let solution = Solution {
         problem,
@@ -107,7 +112,8 @@ where
         quality,
     };
     let table = table(scene, &solution).kept_by_id(&keep);
-    let report = report(scene, resolved, &solution, &table, built);
+    let mut report = report(scene, resolved, &solution, &table, built);
+    report.mass_correction = masses.map(MassReport::from);
     Ok(Outcome {
         packing: wrap(solution),
         table,
@@ -145,54 +151,6 @@ fn pack<const D: usize>(
         path: scene.path.clone(),
         source,
     })
-}
-
-/// Γ and ∇Γ by the kernel that judges. Where that reaches beyond the frozen particles of the packing, their lattice is
-/// continued for the measurement.
-fn measure<const D: usize>(
-    judge: &Problem<D>,
-    problem: &Problem<D>,
-    packed: &Packed<D>,
-) -> Fields<D> {
-    let (kernel, h) = (judge.kernel, judge.smoothing_length());
-    if judge.support() <= problem.frozen_depth() {
-        return packed.fields(kernel, judge.h_over_spacing);
-    }
-    let particles = &packed.particles;
-    let there = problem.domain.bounds.grown(problem.frozen_depth());
-    let mut positions = particles.position.clone();
-    positions.extend(
-        packed
-            .frozen_lattice
-            .continued(&problem.domain, judge.frozen_depth())
-            .into_iter()
-            .filter(|&p| !there.contains(p)),
-    );
-    let mut volumes = particles.volume.clone();
-    volumes.resize(positions.len(), problem.filling().volume_per_site());
-    let mut fields = measured(
-        &packed.domain,
-        &positions,
-        &volumes,
-        &particles.kind,
-        kernel,
-        h,
-    );
-    fields.gamma.truncate(particles.len());
-    fields.gradient.truncate(particles.len());
-    fields
-}
-
-fn measured<const D: usize>(
-    domain: &Domain<D>,
-    positions: &[[f64; D]],
-    volumes: &[f64],
-    kind: &[Kind],
-    kernel: KernelKind,
-    h: f64,
-) -> Fields<D> {
-    let is_measured = |i: usize| kind.get(i).is_some_and(|&kind| kind != Kind::Frozen);
-    Fields::measure(domain, positions, volumes, is_measured, kernel, h)
 }
 
 /// A point with z = 0 where it has none.
@@ -327,6 +285,7 @@ fn report<const D: usize>(
             projection: seconds.projection,
             output: 0.0,
         },
+        mass_correction: None,
         peak_memory_bytes: peak_memory_bytes(),
         history: packed.history.iter().map(History::from).collect(),
     }

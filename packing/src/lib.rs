@@ -46,6 +46,7 @@ mod tests;
 pub use balanced::Balanced;
 pub use hybrid::Hybrid;
 pub use lattice::Lattice;
+pub use masses::{MassCorrection, correct_masses};
 pub use minimise::{Finish, MinimiserKind, Settling};
 pub use observer::{Observer, Phase, Progress, Sample, Silent};
 pub use packed::{Packed, ParticleSurface, Seconds, StopReason};

@@ -253,6 +253,15 @@ impl Scene {
             "packing.velocity_tolerance",
             packing.velocity_tolerance,
         )?;
+        if !(packing.mass_spread > 0.0 && packing.mass_spread < 1.0) {
+            return fault(
+                &at("mass_spread"),
+                format!(
+                    "packing.mass_spread is {}; it must be between 0 and 1, such as 0.02 for ±2 %",
+                    packing.mass_spread
+                ),
+            );
+        }
         packing.residual_tolerance.map_or(Ok(()), |tolerance| {
             positive(
                 &at("residual_tolerance"),

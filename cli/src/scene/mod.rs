@@ -160,6 +160,17 @@ pub enum Finish {
     Consistent,
 }
 
+/// What particles weigh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Masses {
+    /// All particles of a body, and of the fluid, alike; surface particles may differ a little from the others.
+    #[default]
+    Equal,
+    /// Each a little more or less, so that the density is even; every body's total stays.
+    Corrected,
+}
+
 /// How frozen particles are arranged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -198,6 +209,10 @@ pub struct PackingSpec {
     pub residual_tolerance: Option<f64>,
     /// The finish of methods that minimise.
     pub finish: Finish,
+    /// What particles weigh.
+    pub masses: Masses,
+    /// With corrected masses, the largest change of one, as a part of it.
+    pub mass_spread: f64,
     /// Give up after this many.
     pub max_iterations: usize,
     /// For methods that draw random numbers.
@@ -233,6 +248,8 @@ impl Default for PackingSpec {
             minimiser: None,
             residual_tolerance: None,
             finish: Finish::default(),
+            masses: Masses::default(),
+            mass_spread: 0.02,
             max_iterations: hybrid.max_iterations,
             seed: 0,
         }

@@ -83,7 +83,17 @@ fn the_template_packs_and_knows_every_key() {
         .map(|line| line.strip_prefix("# ").unwrap_or(line).to_owned() + "\n")
         .collect();
     let scene = parse(&whole);
-    assert_eq!(scene.packing, PackingSpec::default());
+    // Where leaving a key out has no word of its own, the template names what it comes to.
+    let default = PackingSpec::default();
+    let settling = default.settling();
+    assert_eq!(scene.packing.settling().tolerance(), settling.tolerance());
+    assert_eq!(scene.packing.settling().minimiser, settling.minimiser);
+    let said = PackingSpec {
+        minimiser: scene.packing.minimiser,
+        residual_tolerance: scene.packing.residual_tolerance,
+        ..default
+    };
+    assert_eq!(scene.packing, said);
     assert_eq!(scene.domain.periodic, Some(vec![false, false]));
 }
 
@@ -116,6 +126,9 @@ lattice = "fcc"
 frozen = "square"
 velocity_tolerance = 1e-5
 residual_tolerance = 1e-4
+minimiser = "fire"
+masses = "corrected"
+mass_spread = 0.01
 finish = "even"
 max_iterations = 7
 seed = 3
@@ -274,11 +287,17 @@ fn numbers_out_of_range_are_named() {
         ("h_over_spacing = 20", "between 0.5 and 5"),
         ("velocity_tolerance = 0", "velocity_tolerance is 0"),
         ("max_iterations = -1", "-1"),
-        ("method = \"balanced\"", "not in this version"),
-        ("finish = \"consistent\"", "finish = \"even\""),
+        ("method = \"standard\"", "not in this version"),
+        ("minimiser = \"newton\"", "no minimiser is called"),
+        ("mass_spread = 1.5", "mass_spread is 1.5"),
     ] {
         refuse(&format!("{GOOD}[packing]\n{line}"), 10, &[part]);
     }
+    refuse(
+        &format!("{GOOD}[packing]\nmethod = \"hybrid\"\nfinish = \"consistent\""),
+        11,
+        &["finish = \"even\""],
+    );
     refuse(
         &format!(
             "{GOOD}[[body]]\nname = \"cylinder\"\nshape = {{ naca = {{ digits = \"0015\", chord = 1 }} }}"

@@ -36,7 +36,10 @@ fn at_work(desk: &Desk) -> Child {
 
 fn desk() -> Desk {
     let endless = CYLINDER
-        .replace("1e-3", "1e-300\nmax_iterations = 1000000000")
+        .replace(
+            "1e-3",
+            "1e-300\nmethod = \"hybrid\"\nmax_iterations = 1000000000",
+        )
         .replace("spacing = 0.2", "spacing = 0.1");
     Desk::new().with("scene.toml", endless)
 }

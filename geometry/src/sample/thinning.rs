@@ -79,17 +79,12 @@ fn neighbors<const D: usize>(
     list.for_each_block(&mut by_slot, |block, out| {
         for (lane, found) in out.iter_mut().enumerate() {
             let i = particle[block.first_slot + lane] as usize;
-            found.extend(
-                block
-                    .sources()
-                    .map(|slot| particle[slot])
-                    .filter(|&j| {
-                        let j = j as usize;
-                        j != i
-                            && point::distance_squared(points[i], points[j]) < reach * reach
-                            && point::dot(normals[i], normals[j]) >= 0.0
-                    }),
-            );
+            found.extend(block.sources().map(|slot| particle[slot]).filter(|&j| {
+                let j = j as usize;
+                j != i
+                    && point::distance_squared(points[i], points[j]) < reach * reach
+                    && point::dot(normals[i], normals[j]) >= 0.0
+            }));
         }
     });
     let mut near = vec![Vec::new(); points.len()];

@@ -1,6 +1,8 @@
 //! The balanced method: surface first, exact counts, then a minimiser. No paper has it.
 
 mod shares;
+#[cfg(test)]
+mod tests;
 
 use std::time::Instant;
 

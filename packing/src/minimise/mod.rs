@@ -27,7 +27,7 @@ mod lbfgs;
 mod settling;
 #[cfg(test)]
 mod tests;
-pub(crate) mod vectors;
+mod vectors;
 
 pub use damped::Damped;
 pub use fire::Fire;

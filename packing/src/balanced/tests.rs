@@ -1,0 +1,238 @@
+//! What holds of every balanced packing.
+
+use proptest::prelude::*;
+use sphpack_geometry::{Ball, Cuboid, GeometryError, Outline, Similarity};
+use sphpack_neighbors::{Domain, point};
+
+use crate::minimise::Finish;
+use crate::{
+    Balanced, Kind, MinimiserKind, Packed, Problem, Settling, Silent, StopReason, correct_masses,
+};
+
+fn pack<const D: usize>(problem: &Problem<D>) -> Packed<D> {
+    Balanced::default()
+        .pack(problem, &mut Silent)
+        .expect("a sound problem")
+}
+
+fn linf<const D: usize>(problem: &Problem<D>, packed: &Packed<D>) -> f64 {
+    let fields = packed.fields(problem.kernel, problem.h_over_spacing);
+    packed.quality(&fields).density.linf
+}
+
+/// A polygon with corners both ways, its place and size free.
+fn arrow(place: &Similarity<2>) -> Result<Outline, GeometryError> {
+    let points = [[-0.6, -0.4], [0.7, 0.0], [-0.6, 0.5], [-0.3, 0.05]];
+    Ok(Outline::polygon(&points)?.transformed(place))
+}
+
+fn arrow_problem(scale: f64, shift: [f64; 2]) -> Problem<2> {
+    let place = Similarity::<2>::new(scale, 0.0, shift).expect("a similarity");
+    let corner = |sign: f64| point::add(shift, [sign * scale; 2]);
+    Problem::new(Domain::new(corner(-1.0), corner(1.0)), 0.1 * scale)
+        .body("arrow", arrow(&place).expect("an outline"))
+}
+
+fn volume_of<const D: usize>(packed: &Packed<D>, is_wanted: impl Fn(usize) -> bool) -> f64 {
+    (0..packed.particles.len())
+        .filter(|&i| packed.particles.kind[i] != Kind::Frozen && is_wanted(i))
+        .map(|i| packed.particles.volume[i])
+        .sum()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(8))]
+
+    #[test]
+    fn volumes_are_exact(radius in 0.3..0.8_f64, spacing in 0.06..0.13_f64, seed in 0..100_u64) {
+        let mut problem = Problem::new(Domain::new([-1.0; 2], [1.0; 2]), spacing)
+            .body("disc", Ball::new([0.02, -0.03], radius).unwrap());
+        problem.seed = seed;
+        let packed = pack(&problem);
+        let inner = problem.bodies[0].surface.clone();
+        let is_solid = |i: usize| packed.particles.kind[i].is_on_surface()
+            || inner.closest(packed.particles.position[i]).distance < -0.5 * spacing;
+        let solid = volume_of(&packed, is_solid);
+        let area = std::f64::consts::PI * radius * radius;
+        prop_assert!((solid / area - 1.0).abs() < 1e-9, "{solid} {area}");
+        let all = volume_of(&packed, |_| true);
+        prop_assert!((all / 4.0 - 1.0).abs() < 1e-9, "{all}");
+        prop_assert!(linf(&problem, &packed) < 5e-3);
+        prop_assert_eq!(packed.stop_reason, StopReason::Converged);
+    }
+
+    /// Rounding grows on the way, so the particles are not the same; the figures are.
+    #[test]
+    fn units_and_place_do_not_matter(exponent in -6..=6_i32, shift in prop::array::uniform2(-3.0..3.0_f64)) {
+        let scale = 10.0_f64.powi(exponent);
+        let here = arrow_problem(1.0, [0.0; 2]);
+        let there = arrow_problem(scale, shift.map(|x| x * scale));
+        let (a, b) = (pack(&here), pack(&there));
+        prop_assert_eq!(a.particles.len(), b.particles.len());
+        for kind in Kind::ALL {
+            prop_assert_eq!(a.particles.count(kind), b.particles.count(kind));
+        }
+        let (a, b) = (linf(&here, &a), linf(&there, &b));
+        prop_assert!((a - b).abs() < 3e-4, "{a} {b}");
+    }
+}
+
+/// The hexagonal lattice is mirrored with the box, but not turned with it: a turned problem is as good, not the same.
+#[test]
+fn a_mirrored_or_turned_problem_packs_as_well() {
+    let flat = [[-0.6, -0.4], [0.7, 0.0], [-0.6, 0.5], [-0.3, 0.05]];
+    let of = |map: fn([f64; 2]) -> [f64; 2]| {
+        let points: Vec<[f64; 2]> = flat.into_iter().map(map).collect();
+        let problem = Problem::new(Domain::new([-1.0; 2], [1.0; 2]), 0.07)
+            .body("arrow", Outline::polygon(&points).expect("an outline"));
+        let packed = pack(&problem);
+        (packed.particles.count(Kind::Free), linf(&problem, &packed))
+    };
+    let (count, error) = of(|p| p);
+    for map in [
+        (|p| [-p[0], p[1]]) as fn([f64; 2]) -> [f64; 2],
+        |p| [p[0], -p[1]],
+        |p| [-p[1], p[0]],
+    ] {
+        let (other_count, other) = of(map);
+        assert_eq!(other_count, count);
+        assert!((other / error - 1.0).abs() < 0.3, "{other} {error}");
+    }
+}
+
+#[test]
+fn the_same_bits_for_any_number_of_threads() {
+    let flat = arrow_problem(1.0, [0.0; 2]);
+    let solid = Problem::new(Domain::new([-1.0; 3], [1.0; 3]), 0.2)
+        .body("cube", Cuboid::new([-0.5; 3], [0.4; 3]).expect("a cube"));
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("a thread pool");
+        pool.install(|| (pack(&flat).particles, pack(&solid).particles))
+    };
+    assert!(with(1) == with(2) && with(1) == with(3));
+}
+
+#[test]
+fn a_box_in_space_has_its_edges_and_corners() {
+    let problem = Problem::new(Domain::new([-1.0; 3], [1.0; 3]), 0.2)
+        .body("cube", Cuboid::new([-0.5; 3], [0.5; 3]).expect("a cube"));
+    let packed = pack(&problem);
+    let particles = &packed.particles;
+    // The inset cube has edges of 0.8: four intervals on each of twelve, eight corners.
+    assert_eq!(particles.count(Kind::Fixed), 12 * 3 + 8);
+    assert_eq!(packed.surfaces[0].target_count, 96);
+    assert_eq!(particles.count(Kind::Boundary), 96 - 44);
+    assert!(linf(&problem, &packed) < 6e-3);
+}
+
+#[test]
+fn bodies_inside_bodies_and_holes_get_their_share() {
+    let (outer, inner) = (0.9, 0.4);
+    let problem = Problem::new(Domain::new([-1.2; 2], [1.2; 2]), 0.06)
+        .body("core", Ball::new([0.0; 2], inner).expect("a disc"))
+        .body("shell", Ball::new([0.0; 2], outer).expect("a disc"));
+    let packed = pack(&problem);
+    let radius = |i: usize| point::norm(packed.particles.position[i]);
+    let core = volume_of(&packed, |i| {
+        radius(i) < inner - 0.03 || packed.particles.body[i] == Some(0)
+    });
+    let shell = volume_of(&packed, |i| {
+        (inner - 0.03..outer - 0.03).contains(&radius(i)) && packed.particles.body[i] != Some(0)
+            || packed.particles.body[i] == Some(1)
+    });
+    let disc = |r: f64| std::f64::consts::PI * r * r;
+    assert!((core / disc(inner) - 1.0).abs() < 1e-9, "{core}");
+    assert!(
+        (shell / (disc(outer) - disc(inner)) - 1.0).abs() < 1e-9,
+        "{shell}"
+    );
+    assert!(linf(&problem, &packed) < 4e-3);
+}
+
+#[test]
+fn periodic_boxes_and_no_body_at_all() {
+    let mut domain = Domain::new([-1.0; 2], [1.0; 2]);
+    domain.periodic = [true, true];
+    let problem = Problem::new(domain, 0.1);
+    let packed = pack(&problem);
+    assert_eq!(packed.stop_reason, StopReason::Converged);
+    assert!(linf(&problem, &packed) < 1e-3);
+    let problem = problem.body("disc", Ball::new([0.0; 2], 0.4).expect("a disc"));
+    let packed = pack(&problem);
+    assert_eq!(packed.stop_reason, StopReason::Converged);
+    assert!(linf(&problem, &packed) < 5e-3);
+}
+
+#[test]
+fn a_consistent_finish_leaves_no_force_and_every_minimiser_arrives() {
+    let problem = arrow_problem(1.0, [0.0; 2]);
+    for (minimiser, finish) in [
+        (MinimiserKind::Lbfgs, Finish::Consistent),
+        (MinimiserKind::Fire, Finish::Even),
+        (MinimiserKind::Damped, Finish::Even),
+    ] {
+        let settling = Settling {
+            minimiser,
+            finish,
+            ..Settling::default()
+        };
+        let packed = Balanced { settling }
+            .pack(&problem, &mut Silent)
+            .expect("a sound problem");
+        assert_eq!(packed.stop_reason, StopReason::Converged, "{minimiser:?}");
+        let fields = packed.fields(problem.kernel, problem.h_over_spacing);
+        let quality = packed.quality(&fields);
+        assert!(quality.density.linf < 5e-3, "{minimiser:?}");
+        if finish == Finish::Consistent {
+            assert!(quality.residual.max < 1.1e-5);
+            assert!(quality.closest_pair_over_spacing > 0.6);
+        } else {
+            assert!(quality.closest_pair_over_spacing > 0.85, "{minimiser:?}");
+        }
+    }
+}
+
+#[test]
+fn corrected_masses_even_the_density_and_keep_the_sums() {
+    let problem = arrow_problem(1.0, [0.0; 2]);
+    let mut packed = pack(&problem);
+    let before = packed.particles.volume.clone();
+    let group: Vec<Option<usize>> = (0..packed.particles.len())
+        .map(|i| match packed.particles.kind[i] {
+            Kind::Frozen => None,
+            kind => Some(usize::from(
+                kind.is_on_surface()
+                    || problem.bodies[0]
+                        .surface
+                        .inside(packed.particles.position[i]),
+            )),
+        })
+        .collect();
+    let spread = 0.02;
+    let correction = correct_masses(
+        &problem.domain,
+        &packed.particles.position,
+        &mut packed.particles.volume,
+        &group,
+        problem.kernel,
+        problem.smoothing_length(),
+        spread,
+    );
+    let after = linf(&problem, &packed);
+    assert!((after - correction.linf[1]).abs() < 1e-12);
+    assert!(after < 0.6 * correction.linf[0], "{correction:?}");
+    for wanted in [None, Some(0), Some(1)] {
+        let sum = |volume: &[f64]| -> f64 {
+            let of = volume.iter().zip(&group).filter(|(_, g)| **g == wanted);
+            of.map(|(v, _)| v).sum()
+        };
+        let (old, new) = (sum(&before), sum(&packed.particles.volume));
+        assert!((new / old - 1.0).abs() < 1e-12, "{wanted:?}: {old} {new}");
+    }
+    for (new, old) in packed.particles.volume.iter().zip(&before) {
+        assert!((new / old - 1.0).abs() <= spread * (1.0 + 1e-9));
+    }
+}
