@@ -1,25 +1,25 @@
 //! The neighbour list of a set that moves.
 
+use fearless_simd::Level;
 use rayon::prelude::*;
 
+use crate::block::{Block, Chunk, SHELLS};
 use crate::cells::Cells;
 use crate::clusters::cluster;
+use crate::search::{Scratch, Search};
 use crate::{Bounds, Domain, LANES, point};
 
 /// A source as the pair loop reads it: coordinates (zero beyond D) and its weight, usually the volume, last.
 pub type Slot = [f64; 4];
 
-/// Shells that candidates are sorted into, by their distance from the block.
-pub const SHELLS: usize = 4;
-
-/// Runs of candidates in a block: shell by shell the targets, then shell by shell the other sources.
-const RUNS: usize = 2 * SHELLS;
-
-/// Candidates of a run come in groups of this many.
-pub const GROUP: usize = 4;
-
 /// Blocks that one task handles; also the fixed unit of reductions.
 const BLOCKS_PER_CHUNK: usize = 64;
+
+/// Blocks whose surroundings are collected at once.
+const SEARCHED_TOGETHER: usize = 4;
+
+/// Small cells follow a sphere closely, large ones are few.
+const CELL_OVER_REACH: f64 = 0.5;
 
 /// Neighbours of moving particles: blocks of [`LANES`] particles that share one list of candidates.
 ///
@@ -54,91 +54,11 @@ pub struct CellList<const D: usize> {
     slot_of: Vec<u32>,
     chunks: Vec<Chunk>,
     cells: Cells<D>,
+    /// The instructions that the search uses.
+    level: Level,
     /// Where the slot of nobody is: out of reach of all.
     nobody: [f64; D],
     builds: usize,
-}
-
-#[derive(Debug, Clone, Default)]
-struct Chunk {
-    /// First candidate of each block, and the end of the last.
-    start: Vec<u32>,
-    /// Ends of the runs of each block, from its first candidate.
-    ends: Vec<[u32; RUNS]>,
-    candidates: Vec<u32>,
-    /// The runs of the block that is being built.
-    runs: [Vec<u32>; RUNS],
-}
-
-impl Chunk {
-    fn clear(&mut self) {
-        self.start.clear();
-        self.ends.clear();
-        self.candidates.clear();
-        self.start.push(0);
-    }
-
-    /// Ends a block: makes every run a multiple of [`GROUP`] by moving candidates to the next inner shell, and the
-    /// innermost by the slot of nobody.
-    fn finish_block(&mut self, nobody: u32) {
-        let first = self.candidates.len();
-        for run in (0..RUNS).rev() {
-            while !self.runs[run].len().is_multiple_of(GROUP) {
-                if run % SHELLS == 0 {
-                    self.runs[run].push(nobody);
-                } else if let Some(slot) = self.runs[run].pop() {
-                    self.runs[run - 1].push(slot);
-                }
-            }
-        }
-        let mut ends = [0; RUNS];
-        for (run, end) in self.runs.iter_mut().zip(&mut ends) {
-            self.candidates.append(run);
-            *end = (self.candidates.len() - first) as u32;
-        }
-        self.ends.push(ends);
-        self.start.push(self.candidates.len() as u32);
-    }
-}
-
-/// Up to [`LANES`] targets and the slots of everything that may be within their support.
-#[derive(Debug, Clone, Copy)]
-pub struct Block<'a> {
-    /// The targets are the slots `first_slot .. first_slot + len`.
-    pub first_slot: usize,
-    /// How many targets there are, 1 … [`LANES`].
-    pub len: usize,
-    /// Slots of the candidates, each once, the targets themselves among them; and the slot of nobody, which weighs
-    /// nothing and is out of reach, here and there.
-    pub candidates: &'a [u32],
-    ends: &'a [u32; RUNS],
-    nobody: u32,
-}
-
-impl<'a> Block<'a> {
-    /// The candidates without nobody.
-    #[inline]
-    pub fn sources(&self) -> impl Iterator<Item = usize> + 'a {
-        let nobody = self.nobody;
-        self.candidates
-            .iter()
-            .filter(move |&&slot| slot != nobody)
-            .map(|&slot| slot as usize)
-    }
-
-    /// The candidates in groups: of shell after shell those that are targets, then of shell after shell the others.
-    #[inline(always)]
-    pub fn groups(&self) -> &'a [[u32; GROUP]] {
-        self.candidates.as_chunks().0
-    }
-
-    /// How many groups a shell has.
-    #[inline(always)]
-    pub fn groups_in(&self, shell: usize, are_targets: bool) -> usize {
-        let run = if are_targets { shell } else { SHELLS + shell };
-        let start = if run == 0 { 0 } else { self.ends[run - 1] };
-        (self.ends[run] - start) as usize / GROUP
-    }
 }
 
 impl<const D: usize> CellList<D> {
@@ -149,6 +69,7 @@ impl<const D: usize> CellList<D> {
             support,
             skin: 0.0,
             shells: [f64::INFINITY; SHELLS - 1],
+            level: Level::new(),
             nobody: [0.0; D],
             reference: Vec::new(),
             targets: 0,
@@ -284,51 +205,60 @@ impl<const D: usize> CellList<D> {
         let mut sources = self.source_positions(positions);
         let others = &sources[self.targets..];
         self.cells.build(others, reach);
-        let order: Vec<usize> = self
+        let mut order: Vec<usize> = self
             .cells
             .items()
             .iter()
             .map(|&k| self.targets + k as usize)
             .collect();
+        // A pair with a target's image is a pair of targets: images come before sources that are no targets.
+        let is_image = |k: &usize| self.slot_of[self.particle[*k] as usize] != u32::MAX;
+        let images = order.iter().filter(|k| is_image(k)).count();
+        if images > 0 {
+            order.sort_by_key(|k| !is_image(k));
+        }
         reorder_tail(&mut self.particle, self.targets, &order);
         if !self.shift.is_empty() {
             reorder_tail(&mut self.shift, self.targets, &order);
         }
         reorder_tail(&mut sources, self.targets, &order);
 
-        self.cells.build(&sources, 0.5 * reach);
+        self.cells.build(&sources, CELL_OVER_REACH * reach);
+        let by_cell: Vec<[f64; D]> = self
+            .cells
+            .items()
+            .par_iter()
+            .with_min_len(4096)
+            .map(|&slot| sources[slot as usize])
+            .collect();
+        let search = Search {
+            cells: &self.cells,
+            sources: &by_cell,
+            targets: self.targets + images,
+            reach,
+            // Both ends of a pair may come half a skin nearer.
+            begins: self.shells.map(|r| r + self.skin),
+            level: self.level,
+        };
+        let targets = &sources[..self.targets];
+        let nobody = sources.len() as u32;
         let blocks = self.targets.div_ceil(LANES);
         self.chunks
             .resize_with(blocks.div_ceil(BLOCKS_PER_CHUNK), Chunk::default);
-        let (cells, targets) = (&self.cells, self.targets);
-        // Both ends of a pair may come half a skin nearer.
-        let begins = self.shells.map(|r| (r + self.skin) * (r + self.skin));
-        let nobody = sources.len() as u32;
-        self.nobody = point::add(Bounds::of(&sources).max, [2.0 * reach; D]);
         self.chunks
             .par_iter_mut()
-            .enumerate()
-            .for_each(|(number, chunk)| {
+            .zip(targets.par_chunks(BLOCKS_PER_CHUNK * LANES))
+            .for_each_init(Scratch::default, |scratch, (chunk, targets)| {
                 chunk.clear();
-                let first = number * BLOCKS_PER_CHUNK;
-                for block in first..(first + BLOCKS_PER_CHUNK).min(blocks) {
-                    let members = block * LANES..((block + 1) * LANES).min(targets);
-                    let bounds = Bounds::of(&sources[members]);
-                    cells.for_each_run(&bounds.grown(reach), |run| {
-                        for &slot in run {
-                            let r_squared = bounds.distance_squared(sources[slot as usize]);
-                            if r_squared <= reach * reach {
-                                let mut run = if (slot as usize) < targets { 0 } else { SHELLS };
-                                for begin in begins {
-                                    run += usize::from(r_squared >= begin);
-                                }
-                                chunk.runs[run].push(slot);
-                            }
-                        }
-                    });
-                    chunk.finish_block(nobody);
+                for few in targets.chunks(SEARCHED_TOGETHER * LANES) {
+                    search.surround(few, scratch);
+                    for members in few.chunks(LANES) {
+                        search.block(members, scratch);
+                        chunk.add_block(&mut scratch.found, nobody);
+                    }
                 }
             });
+        self.nobody = point::add(Bounds::of(&sources).max, [2.0 * reach; D]);
     }
 
     /// Appends a slot for every periodic image within `reach` of the box; fills `shift`.
@@ -427,29 +357,14 @@ impl<const D: usize> CellList<D> {
             .for_each(|(number, (out, chunk))| {
                 let first = number * BLOCKS_PER_CHUNK * LANES;
                 for (block, out) in out.chunks_mut(LANES).enumerate() {
-                    let range = chunk.start[block] as usize..chunk.start[block + 1] as usize;
-                    f(
-                        Block {
-                            first_slot: first + block * LANES,
-                            len: out.len(),
-                            candidates: &chunk.candidates[range],
-                            ends: &chunk.ends[block],
-                            nobody: self.particle.len() as u32,
-                        },
-                        out,
-                    );
+                    f(chunk.block(block, first + block * LANES, out.len()), out);
                 }
             });
     }
 
     /// Candidates over all blocks and lanes: what the pair loop evaluates, pairs beyond the support included.
     pub fn lane_pairs(&self) -> usize {
-        LANES
-            * self
-                .chunks
-                .iter()
-                .map(|chunk| chunk.candidates.len())
-                .sum::<usize>()
+        self.chunks.iter().map(Chunk::lanes).sum()
     }
 
     /// The particles within the support of target `i`, itself left out, ascending; an image counts as its particle,
@@ -464,11 +379,10 @@ impl<const D: usize> CellList<D> {
                 .get(slot)
                 .map_or(p, |&shift| point::add(p, shift))
         });
-        let chunk = &self.chunks[block / BLOCKS_PER_CHUNK];
-        let place = block % BLOCKS_PER_CHUNK;
         let here = position(slot);
-        let mut found: Vec<usize> = chunk.candidates
-            [chunk.start[place] as usize..chunk.start[place + 1] as usize]
+        let mut found: Vec<usize> = self.chunks[block / BLOCKS_PER_CHUNK]
+            .block(block % BLOCKS_PER_CHUNK, slot, 1)
+            .candidates
             .iter()
             .map(|&other| other as usize)
             .filter(|&other| {

@@ -1,5 +1,7 @@
 //! A uniform grid over points, filled by counting sort.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use crate::Bounds;
@@ -9,6 +11,7 @@ use crate::Bounds;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Cells<const D: usize> {
     origin: Vec<f64>,
+    size: f64,
     inverse_size: f64,
     shape: Vec<usize>,
     /// First entry of each cell in `items`; one more than there are cells.
@@ -48,6 +51,7 @@ impl<const D: usize> Cells<D> {
             size *= 1.25;
         }
         self.origin.extend(bounds.min);
+        self.size = size;
         self.inverse_size = 1.0 / size;
         self.shape
             .extend(extent.iter().map(|e| (e / size).floor() as usize + 1));
@@ -99,23 +103,45 @@ impl<const D: usize> Cells<D> {
         key as u32
     }
 
-    /// Calls `f` with runs of point indices that together hold every point of the box (and others near it).
-    #[inline]
-    pub(crate) fn for_each_run<'a>(&'a self, bounds: &Bounds<D>, mut f: impl FnMut(&'a [u32])) {
+    /// Calls `f` with ranges of [`Cells::items`] that together hold every point within `reach` of the box (and others
+    /// near it).
+    #[inline(always)]
+    pub(crate) fn for_each_run(
+        &self,
+        bounds: &Bounds<D>,
+        reach: f64,
+        mut f: impl FnMut(Range<usize>),
+    ) {
         if self.items.is_empty() {
             return;
         }
-        let low: [usize; D] = std::array::from_fn(|k| self.coordinate(k, bounds.min[k]));
-        let high: [usize; D] = std::array::from_fn(|k| self.coordinate(k, bounds.max[k]));
+        // A little more, for what rounding does to the cells' faces.
+        let reach = reach * (1.0 + 1e-9);
+        let near = bounds.grown(reach);
+        let low: [usize; D] = std::array::from_fn(|k| self.coordinate(k, near.min[k]));
+        let high: [usize; D] = std::array::from_fn(|k| self.coordinate(k, near.max[k]));
+        let last = D - 1;
         let mut index = low;
         loop {
-            let mut row = 0;
-            for k in 0..D {
+            // The row's distance from the box, across the last axis.
+            let (mut row, mut gap_squared) = (0, 0.0);
+            for k in 0..last {
                 row = row * self.shape[k] + index[k];
+                let face = self.origin[k] + index[k] as f64 * self.size;
+                let gap = (face - bounds.max[k])
+                    .max(bounds.min[k] - (face + self.size))
+                    .max(0.0);
+                gap_squared += gap * gap;
             }
-            let end = row + high[D - 1] - low[D - 1];
-            f(&self.items[self.start[row] as usize..self.start[end + 1] as usize]);
-            let mut axis = D - 1;
+            let rest = reach * reach - gap_squared;
+            if rest >= 0.0 {
+                let along = rest.sqrt();
+                row *= self.shape[last];
+                let from = row + self.coordinate(last, bounds.min[last] - along);
+                let to = row + self.coordinate(last, bounds.max[last] + along);
+                f(self.start[from] as usize..self.start[to + 1] as usize);
+            }
+            let mut axis = last;
             loop {
                 if axis == 0 {
                     return;

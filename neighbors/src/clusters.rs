@@ -5,11 +5,11 @@ use crate::{Bounds, LANES};
 /// Below this many points a part is not worth a task of its own.
 const SERIAL_BELOW: usize = 8192;
 
-/// Reorders `items` (indices into `points`) so that every [`LANES`] consecutive ones lie close together: halved along
-/// the longest side, over and over, always at a multiple of [`LANES`]. O(n log n), in parallel; the result does not
+/// Reorders `items` (indices into `points`) so that every [`LANES`] consecutive ones lie close together, and each half of
+/// them closer: halved along the longest side, over and over, always at a multiple of [`LANES`], blocks at half of it. O(n log n), in parallel; the result does not
 /// depend on the number of threads.
 pub(crate) fn cluster<const D: usize>(points: &[[f64; D]], items: &mut [u32]) {
-    if items.len() <= LANES {
+    if items.len() <= LANES / 2 {
         items.sort_unstable();
         return;
     }
@@ -24,8 +24,13 @@ pub(crate) fn cluster<const D: usize>(points: &[[f64; D]], items: &mut [u32]) {
             axis = k;
         }
     }
-    let blocks = items.len().div_ceil(LANES);
-    let middle = blocks / 2 * LANES;
+    // Whole blocks on either side; a block into its halves.
+    let unit = if items.len() > LANES {
+        LANES
+    } else {
+        LANES / 2
+    };
+    let middle = items.len().div_ceil(unit) / 2 * unit;
     items.select_nth_unstable_by(middle, |&a, &b| {
         let (x, y) = (points[a as usize][axis], points[b as usize][axis]);
         x.total_cmp(&y).then(a.cmp(&b))

@@ -8,6 +8,7 @@
 //! Invariants: the answer never depends on the number of threads; a list that is up to date is not built again, and
 //! using one does not allocate.
 
+mod block;
 mod bounds;
 mod cell_list;
 mod cells;
@@ -15,12 +16,14 @@ mod clusters;
 mod domain;
 mod kd_tree;
 pub mod point;
+mod search;
 
 #[cfg(test)]
 mod tests;
 
+pub use block::{Block, GROUP, SHELLS};
 pub use bounds::Bounds;
-pub use cell_list::{Block, CellList, GROUP, SHELLS, Slot};
+pub use cell_list::{CellList, Slot};
 pub use domain::Domain;
 pub use kd_tree::{Found, KdTree, KdTreeError};
 

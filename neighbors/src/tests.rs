@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use crate::{CellList, Domain, KdTree, LANES, point};
+use crate::{Bounds, CellList, Domain, KdTree, LANES, SHELLS, point};
 
 /// Point sets that break neighbour searches: random, lattice, clustered, coincident, near the boundary.
 fn point_sets<const D: usize>() -> impl Strategy<Value = Vec<[f64; D]>> {
@@ -225,6 +225,68 @@ fn blocks_of_a_lattice_are_compact() {
         list.lane_pairs()
     );
     assert_eq!(list.lane_pairs() % LANES, 0);
+}
+
+#[test]
+fn shells_and_halves_keep_their_promises() {
+    let n = 20;
+    let points: Vec<[f64; 3]> = (0..n * n * n)
+        .map(|i| {
+            let site = [i / n / n, i / n % n, i % n];
+            std::array::from_fn(|k| site[k] as f64 + 0.2 * ((i * (k + 2)) as f64).sin())
+        })
+        .collect();
+    let (support, skin, radii) = (3.0, 0.3, [0.8, 1.0, 2.0]);
+    let domain = Domain::new([-1.0; 3], [n as f64; 3]);
+    let mut list = CellList::new(&domain, support)
+        .with_skin(skin)
+        .with_shells(radii);
+    list.update(&points, |i| i % 7 != 0);
+    let later = moved(&points, 0.499 * skin);
+    assert!(!list.update(&later, |i| i % 7 != 0));
+    let mut slots = Vec::new();
+    list.gather(&later, &vec![1.0; later.len()], 1.0, &mut slots);
+    let at = |slot: u32| -> [f64; 3] { std::array::from_fn(|k| slots[slot as usize][k]) };
+    let targets = list.targets();
+    let mut counts = vec![(0, 0, 0); targets];
+    list.for_each_block(&mut counts, |block, counts| {
+        let here = |lane: usize| at((block.first_slot + lane) as u32);
+        for (lane, (full, split, all)) in counts.iter_mut().enumerate() {
+            let near = |slot: u32| point::distance(at(slot), here(lane)) <= support;
+            for are_targets in [true, false] {
+                for shell in 0..SHELLS {
+                    for &slot in block.full(shell, are_targets).as_flattened() {
+                        let away = shell.checked_sub(1).map_or(0.0, |s| radii[s]);
+                        assert!(point::distance(at(slot), here(lane)) >= away);
+                        assert!(
+                            ((slot as usize) < targets) == are_targets
+                                || slots[slot as usize][3] == 0.0
+                        );
+                        *full += usize::from(near(slot));
+                    }
+                }
+                for (place, &slot) in block.split(are_targets).as_flattened().iter().enumerate() {
+                    let is_mine = place % 2 == lane / (LANES / 2);
+                    assert!(is_mine || !near(slot), "the other half is out of reach");
+                    assert!(!is_mine || point::distance(at(slot), here(lane)) >= radii[2]);
+                    *split += usize::from(is_mine && near(slot));
+                }
+            }
+            *all = (0..later.len())
+                .filter(|&i| point::distance(later[i], here(lane)) <= support)
+                .count();
+        }
+    });
+    assert!(counts.iter().all(|(full, split, all)| full + split == *all));
+    assert!(
+        counts.iter().any(|&(_, split, _)| split > 0),
+        "some are split"
+    );
+    // The slot of nobody weighs nothing and is out of everybody's reach.
+    let nobody = slots.last().expect("a slot of nobody");
+    let nobody_at: [f64; 3] = std::array::from_fn(|k| nobody[k]);
+    assert_eq!((slots.len(), nobody[3]), (points.len() + 1, 0.0));
+    assert!(Bounds::of(&later).distance_squared(nobody_at) > support * support);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The pair loop: density, its gradient and the repulsion, eight particles at a time against shared candidates.
 
-use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
+use fearless_simd::{Level, Simd, dispatch, f64x4, f64x8, prelude::*};
 use sphpack_kernels::{Kernel, Profile, SMALLEST_Q, WithKernel};
 use sphpack_neighbors::{Block, CellList, GROUP, LANES, SHELLS, Slot};
 
@@ -139,26 +139,24 @@ fn block_sums<S: Simd, P: Profile<D>, const D: usize>(
                 repulsion: [zero; D],
                 repulsion_energy: zero,
             };
-            let mut groups = block.groups().iter();
             let mut of_targets = zero;
             for are_targets in [true, false] {
-                macro_rules! shell {
-                    ($shell:literal, $piece:literal) => {
-                        for _ in 0..block.groups_in($shell, are_targets) {
-                            let Some(group) = groups.next() else {
-                                break;
-                            };
-                            let near = walk.add::<P, $piece>(group);
-                            if $shell == 0 {
-                                walk.repel(&near, if are_targets { 0.5 } else { 1.0 });
-                            }
-                        }
-                    };
+                for group in block.full(0, are_targets) {
+                    let near = walk.add::<P, 0>(walk.full(group));
+                    walk.repel(&near, if are_targets { 0.5 } else { 1.0 });
                 }
-                shell!(0, 0);
-                shell!(1, 0);
-                shell!(2, 1);
-                shell!(3, 2);
+                for group in block.full(1, are_targets) {
+                    walk.add::<P, 0>(walk.full(group));
+                }
+                for group in block.full(2, are_targets) {
+                    walk.add::<P, 1>(walk.full(group));
+                }
+                for group in block.full(3, are_targets) {
+                    walk.add::<P, 2>(walk.full(group));
+                }
+                for group in block.split(are_targets) {
+                    walk.add::<P, 2>(walk.split(group));
+                }
                 if are_targets {
                     of_targets = walk.gamma;
                 }
@@ -181,6 +179,12 @@ struct Walk<'a, S: Simd, const D: usize> {
     repulsion_energy: f64x8<S>,
 }
 
+/// A group of candidates.
+struct Sources<S: Simd, const D: usize> {
+    at: [[f64x8<S>; D]; GROUP],
+    weight: [f64x8<S>; GROUP],
+}
+
 /// How far a group is from the targets.
 struct Near<S: Simd, const D: usize> {
     apart: [[f64x8<S>; D]; GROUP],
@@ -190,20 +194,58 @@ struct Near<S: Simd, const D: usize> {
 }
 
 impl<S: Simd, const D: usize> Walk<'_, S, D> {
+    /// Candidates for all targets.
+    #[inline(always)]
+    fn full(&self, group: &[u32; GROUP]) -> Sources<S, D> {
+        let zero = f64x8::splat(self.simd, 0.0);
+        let mut sources = Sources {
+            at: [[zero; D]; GROUP],
+            weight: [zero; GROUP],
+        };
+        for j in 0..GROUP {
+            let slot = &self.slots[group[j] as usize];
+            for k in 0..D {
+                sources.at[j][k] = f64x8::splat(self.simd, slot[k]);
+            }
+            sources.weight[j] = f64x8::splat(self.simd, slot[3]);
+        }
+        sources
+    }
+
+    /// Candidates for one half of the targets each.
+    #[inline(always)]
+    fn split(&self, group: &[u32; 2 * GROUP]) -> Sources<S, D> {
+        let simd = self.simd;
+        let zero = f64x8::splat(simd, 0.0);
+        let mut sources = Sources {
+            at: [[zero; D]; GROUP],
+            weight: [zero; GROUP],
+        };
+        for j in 0..GROUP {
+            let one = &self.slots[group[2 * j] as usize];
+            let two = &self.slots[group[2 * j + 1] as usize];
+            for k in 0..D {
+                sources.at[j][k] =
+                    simd.combine_f64x4(f64x4::splat(simd, one[k]), f64x4::splat(simd, two[k]));
+            }
+            sources.weight[j] =
+                simd.combine_f64x4(f64x4::splat(simd, one[3]), f64x4::splat(simd, two[3]));
+        }
+        sources
+    }
+
     /// Adds a group of which all are as far away as the kernel's piece begins.
     #[inline(always)]
-    fn add<P: Profile<D>, const PIECE: usize>(&mut self, group: &[u32; GROUP]) -> Near<S, D> {
+    fn add<P: Profile<D>, const PIECE: usize>(&mut self, sources: Sources<S, D>) -> Near<S, D> {
         let simd = self.simd;
         let zero = f64x8::splat(simd, 0.0);
         let mut apart = [[zero; D]; GROUP];
         let mut square = [zero; GROUP];
-        let mut weight = [zero; GROUP];
+        let weight = sources.weight;
         for j in 0..GROUP {
-            let source = &self.slots[group[j] as usize];
             for k in 0..D {
-                apart[j][k] = self.x[k] - f64x8::splat(simd, source[k]);
+                apart[j][k] = self.x[k] - sources.at[j][k];
             }
-            weight[j] = f64x8::splat(simd, source[3]);
         }
         for j in 0..GROUP {
             square[j] = apart[j][0] * apart[j][0];

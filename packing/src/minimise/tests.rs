@@ -140,6 +140,35 @@ proptest! {
     }
 }
 
+/// Pairs across a periodic side count once in the energy, as any other pair of moving particles.
+#[test]
+fn the_energy_goes_around_a_periodic_box() {
+    let mut domain = Domain::new([0.0; 2], [1.0; 2]);
+    domain.periodic = [true, true];
+    let problem = Problem::new(domain, 0.08);
+    let mut particles = seed(&problem).expect("a sound problem").particles;
+    let mut state = 3;
+    for p in &mut particles.position {
+        *p = p.map(|x| x + 0.01 * random(&mut state));
+    }
+    let forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let mut landscape = Landscape::new(&mut particles, &[], forces, problem.spacing, 1.0);
+    let (mut place, force) = (Vec::new(), landscape.force().to_vec());
+    landscape.places(&mut place);
+    let slope = vectors::dot(&force, &force);
+    let step = 1e-6 * problem.spacing / slope.sqrt();
+    landscape.move_to(&place, step, &force);
+    let up = landscape.energy();
+    landscape.move_to(&place, -step, &force);
+    let difference = (landscape.energy() - up) / (2.0 * step);
+    assert!(
+        (difference / slope - 1.0).abs() < 1e-4,
+        "{difference} {slope}"
+    );
+    let momentum = force.iter().fold([0.0; 2], |sum, &f| point::add(sum, f));
+    assert!(point::norm(momentum) < 1e-9 * slope.sqrt());
+}
+
 #[test]
 fn every_minimiser_goes_down_and_holds_what_is_held() {
     for kind in MinimiserKind::ALL {

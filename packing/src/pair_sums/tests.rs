@@ -75,8 +75,8 @@ impl<const D: usize> Plain<'_, D> {
                 if r >= kernel.support().max(self.repulsion.reach()) {
                     continue;
                 }
-                // Images are sources only.
-                let is_other = !Self::is_target(j) || step != [0; D];
+                // A target's image stands for the target.
+                let is_other = !Self::is_target(j);
                 let value = self.weights[j] * kernel.value(r);
                 sums.gamma += value;
                 if is_other {
