@@ -291,3 +291,40 @@ proptest! {
         prop_assert!((mean / spacing - 1.0).abs() < 0.05);
     }
 }
+
+#[test]
+fn strewn_points_stand_for_equal_areas() {
+    // Both sides of plates much thinner than the mean distance between the points.
+    for thickness in [0.02, 0.1, 0.5] {
+        let plate = Cuboid::new([0.0; 3], [2.0, 1.0, thickness]).unwrap();
+        let strip = Cuboid::new([0.0; 2], [2.0, thickness]).unwrap();
+        let up: Vec<f64> = plate.strew(1000).iter().map(|s| s.normal[2]).collect();
+        let up_there: Vec<f64> = strip.strew(1000).iter().map(|s| s.normal[1]).collect();
+        for (normals, part) in [
+            (up, 2.0 / plate.measure()),
+            (up_there, 2.0 / strip.measure()),
+        ] {
+            assert_eq!(normals.len(), 1000);
+            for side in [1.0, -1.0] {
+                let there = normals.iter().filter(|n| **n == side).count() as f64;
+                assert!((there / 1000.0 - part).abs() < 0.02, "{there} {part}");
+            }
+        }
+    }
+    let cow = spot();
+    for site in cow.strew(2000) {
+        assert!(cow.closest(site.point).distance.abs() < 1e-12);
+    }
+    assert_eq!(Outline::naca("0015", 1.0).unwrap().strew(500).len(), 500);
+}
+
+#[test]
+fn creases_that_were_not_given_a_point_hold_none() {
+    let thick = spot().inset(0.15).unwrap();
+    let sites = thick.sample(800).unwrap();
+    let features = sites.iter().take_while(|s| s.feature != Feature::Smooth);
+    let given = features.count();
+    assert!(sites[given..].iter().all(|s| s.feature == Feature::Smooth));
+    let creased = |s: &Closest<3>| thick.closest(s.point).feature != Feature::Smooth;
+    assert!(sites[given..].iter().any(creased));
+}
