@@ -123,6 +123,15 @@ impl<const D: usize> Candidates<D> {
 }
 
 impl<const D: usize> Candidates<D> {
+    /// The points of a surface as candidates, whatever its area.
+    pub(crate) fn of(hits: &[Closest<D>]) -> Self {
+        Self {
+            point: hits.iter().map(|hit| hit.point).collect(),
+            normal: hits.iter().map(|hit| hit.normal).collect(),
+            area: f64::NAN,
+        }
+    }
+
     /// The candidates as points of a surface that they are on.
     pub(crate) fn hits(&self) -> Vec<Closest<D>> {
         let both = self.point.iter().zip(&self.normal);

@@ -10,6 +10,7 @@ mod relax;
 mod sheet;
 mod thinning;
 mod trace;
+mod weighted;
 
 #[cfg(test)]
 mod tests;
@@ -22,7 +23,11 @@ use crate::surface::{Closest, Feature, Surface};
 pub(crate) use candidates::Candidates;
 use candidates::{QUICK, THOROUGH};
 pub(crate) use curve::{Ring, along};
-pub(crate) use sheet::spread;
+pub(crate) use features::occupied;
+pub(crate) use local::Local;
+pub(crate) use sheet::{settle, spread};
+pub(crate) use thinning::keep_evenest;
+pub use weighted::sample_weighted;
 
 /// [`Surface::sample`] for a surface of which nothing but its answers is known.
 ///

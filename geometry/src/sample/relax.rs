@@ -10,8 +10,11 @@ use crate::surface::Closest;
 /// next (1.86), so that a row beside a sharp edge does not miss the rows beyond it.
 const REACH: f64 = 1.9;
 
-/// Steps. Nearest distances vary by 5.0 % after 20, 3.2 % after 60 (torus), 2.8 % after 300 (ellipsoid).
+/// Steps on a surface. Nearest distances vary by 5.0 % after 20, 3.2 % after 60 (torus), 2.8 % after 300 (ellipsoid).
 const STEPS: usize = 60;
+
+/// Steps on a curve, where points cannot pass each other.
+const STEPS_ON_CURVE: usize = 600;
 
 /// Longest time step. The lattice's fastest mode is stable up to 1.37, and the start is rougher than that.
 const LONGEST: f64 = 0.8;
@@ -64,7 +67,7 @@ pub(super) fn even_out<const D: usize>(
         .collect();
     let mut pushes = Pushes::new(&movers, held, spacing);
     let (mut step, mut mixing, mut patience) = (0.3 * LONGEST, MIXING, 0);
-    for _ in 0..STEPS {
+    for _ in 0..if D == 2 { STEPS_ON_CURVE } else { STEPS } {
         let force = pushes.on(&movers);
         let (mut power, mut force_squared, mut speed_squared) = (0.0, 0.0, 0.0);
         for (mover, &f) in movers.iter().zip(force).skip(held) {

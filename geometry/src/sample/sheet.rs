@@ -50,7 +50,7 @@ pub(crate) fn spread<const D: usize, S: Surface<D> + ?Sized>(
 
 /// `count` points of the surface: `held`, which stay where they are, and the evenest of the candidates, moved on until
 /// all are as far apart as `locals` (of the held points, then of the candidates; `spacing` on average) ask for.
-pub(super) fn settle<const D: usize, S: Surface<D> + ?Sized>(
+pub(crate) fn settle<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     held: Vec<Closest<D>>,
     candidates: &Candidates<D>,

@@ -18,7 +18,7 @@ const SAME_SIDE: f64 = 0.0;
 /// The places of `keep` candidates that are spread as evenly as is wanted of them, between themselves and the held
 /// sites (weighted sample elimination: Yuksel, "Sample elimination for generating Poisson disk sample sets", Computer
 /// Graphics Forum 34, 2015). `locals` is of the held sites and then of the candidates. O(n log n).
-pub(super) fn keep_evenest<const D: usize>(
+pub(crate) fn keep_evenest<const D: usize>(
     candidates: &Candidates<D>,
     held: &[Closest<D>],
     keep: usize,
