@@ -14,6 +14,12 @@ const ROUNDS: usize = 40;
 /// A point ends a part where the next other one is this much farther from the part's end.
 const END: f64 = 1.25;
 
+/// How many spacings points moved to tips are from each other, at least.
+const ROOM_AT_TIPS: f64 = 0.9;
+
+/// Times as far apart points start as they would be on a sheet: far enough for a rod.
+const WIDE: f64 = 1.5;
+
 /// Strides by which the tip of a part is approached; each leaves five sixths of the way in a wedge of 20°.
 const STRIDES: usize = 20;
 
@@ -101,7 +107,7 @@ fn start<const D: usize>(
     let mut locals = vec![Local::even(spacing); held.len()];
     locals.extend(places.iter().map(|place| {
         let density = (place.thickness / spacing).max(0.05);
-        Local::even(spacing * density.powf(-root))
+        Local::even(WIDE * spacing * density.powf(-root))
     }));
     let kept = keep_evenest(&Candidates::of(&hits), &held, count, &locals);
     kept.into_iter().map(|i| places[i].point).collect()
@@ -183,7 +189,7 @@ impl<const D: usize> Set<'_, D> {
         p
     }
 
-    /// Moves points that end the part to within `spacing` of its tip, and holds them there.
+    /// Moves points that end the part to within `spacing` of its tip, and holds them there, unless others are too near.
     fn reach_tips(&mut self, spacing: f64) -> Result<(), GeometryError> {
         let tree = tree(&self.sites)?;
         let mut tips: Vec<Option<(f64, [f64; D])>> = vec![None; self.free.len()];
@@ -208,8 +214,14 @@ impl<const D: usize> Set<'_, D> {
             };
             let on = point::scale(point::sub(place, self.sites[i]), 1.0 / far);
             let tip = self.end_of(place, on);
-            self.sites[i] = self.kept_clear(point::add_scaled(tip, -spacing, on));
-            self.free[i] = false;
+            let moved = self.kept_clear(point::add_scaled(tip, -spacing, on));
+            let near = |(j, other): (usize, &[f64; D])| {
+                j != i && point::distance(*other, moved) < ROOM_AT_TIPS * spacing
+            };
+            if !self.sites[..self.free.len()].iter().enumerate().any(near) {
+                self.sites[i] = moved;
+                self.free[i] = false;
+            }
         }
         Ok(())
     }

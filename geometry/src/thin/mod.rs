@@ -22,8 +22,9 @@ const MOST_PROBES: f64 = 4096.0;
 const THIN: f64 = 0.99;
 
 /// An outline whose thin parts have no medial points and would have fewer points than a thick body's by no more than
-/// this, in all, counts as thick: by arc length points are evener than by pushing.
+/// this, and by no more than this part of all, counts as thick: by arc length points are evener than by pushing.
 const FEW_POINTS: f64 = 2.0;
+const SMALL_PART: f64 = 0.02;
 
 /// What [`sample_particles`] gives.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -44,7 +45,8 @@ pub struct SurfaceSamples<const D: usize> {
 ///
 /// - A body that is nowhere thinner than 2 × `spacing` (`depth` = 0: than `spacing`), as far as a few thousand probes
 ///   tell, gets what `inset.sample(round(area / spacing^(D−1)))` gives, to the bit. So does
-///   an outline where thin parts, a few sharp corners, would make a difference of less than two points.
+///   an outline where thin parts, a few sharp corners, would make a difference of less than two points
+///   and 2 %.
 /// - Elsewhere a side carries only its half of the thickness t: min(1, t/(2 `spacing`)) / `spacing`^(D−1) points per
 ///   area (`depth` = 0: min(1, t/`spacing`), each particle counting half there). Thin parts are so full of them that
 ///   points on both sides keep apart from each other too.
@@ -106,7 +108,8 @@ pub fn sample_particles<const D: usize>(
     if let Some(surface) = inset {
         let count = surface.measure() / area_each;
         let none = counts.medial.iter().all(|&n| n == 0);
-        if D == 2 && none && (1.0 - shares.mean_density()) * count < FEW_POINTS {
+        let lacking = 1.0 - shares.mean_density();
+        if D == 2 && none && lacking < SMALL_PART && lacking * count < FEW_POINTS {
             return as_if_thick(surface, count);
         }
     }
