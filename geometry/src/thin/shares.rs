@@ -139,7 +139,7 @@ impl<const D: usize> Shares<D> {
             shares
                 .parts
                 .retain(|part| farthest(part) >= REACH * spacing);
-            shares.volume = shares.beneath(surface, volume_below, body.volume());
+            shares.volume = shares.layer(surface, area, volume_below, body.volume());
         } else {
             // What was found is the whole body.
             for part in &mut shares.parts {
@@ -149,17 +149,25 @@ impl<const D: usize> Shares<D> {
         Ok(shares)
     }
 
-    /// The volume that all points stand for, where there is a particle surface. Exact for flat sides; of curved ones
-    /// it is the particle surface, in the middle of the layer, whose area counts. `below` is the volume of what has no
-    /// particle surface, the corners and edges of thick bodies too.
-    fn beneath(&self, surface: &dyn Surface<D>, below: f64, whole: f64) -> f64 {
+    /// The volume that all points stand for, where there is a particle surface: all that is at most a spacing deep.
+    /// Every place has `area` of the true surface; `below` is the volume of what has no particle surface, the corners
+    /// and edges of thick bodies too.
+    fn layer(&self, surface: &dyn Surface<D>, area: f64, below: f64, whole: f64) -> f64 {
         if self.depth == 0.0 {
             return surface.measure() * self.mean_density() * self.spacing;
         }
-        // Beside corners too it is the ball that counts, for the corners' own volume is in `below`.
-        let depths: f64 = self.over.iter().map(|p| p.radius.min(self.spacing)).sum();
-        let area_each = surface.measure() / self.over.len().max(1) as f64;
-        (area_each * depths + below).min(whole)
+        if self.over.iter().all(|place| place.radius < self.spacing) {
+            return whole;
+        }
+        // The area shrinks from the true to the particle surface, and as much again beyond: exact for flat sides, and
+        // where the body is thick the area of the particle surface times the spacing. Beside corners it is the ball
+        // that counts, for the corners' own volume is in `below`.
+        let shrinks = 1.0 - surface.measure() / (area * self.over.len() as f64);
+        let columns = self.over.iter().map(|place| {
+            let deep = place.radius.min(self.spacing);
+            deep - 0.5 * shrinks / self.depth * deep * deep
+        });
+        (area * columns.sum::<f64>() + below).min(whole)
     }
 
     /// Points on the particle surface, in parts of their number were the body thick everywhere.

@@ -6,7 +6,7 @@ use sphpack_neighbors::point;
 
 use super::{SurfaceSamples, sample_particles};
 use crate::surface::{Feature, Surface};
-use crate::{Ball, Cuboid, Ellipsoid, Mesh, Outline, Placed, Similarity, thickness};
+use crate::{Ball, Cuboid, Ellipsoid, Mesh, Outline, Placed, Similarity, Torus, thickness};
 
 /// No two points may be nearer than this many spacings.
 const APART: f64 = 0.6;
@@ -268,6 +268,21 @@ fn scanned_bodies_are_sane() {
     let coarse = sampled(&cow, 0.2);
     let (count, volume) = mass(&cow, 0.2, &coarse);
     assert!(count < volume, "{count} {volume}");
+}
+
+#[test]
+fn round_thin_bodies_keep_their_mass() {
+    for radius in [0.3, 0.45, 0.5, 0.6, 0.8, 0.95] {
+        let ring = Torus::new([0.0; 3], [0.0, 0.0, 1.0], 4.0, radius).unwrap();
+        let found = sampled(&ring, 1.0);
+        let (count, volume) = mass(&ring, 1.0, &found);
+        assert!((count - volume).abs() <= 0.5, "{radius} {count} {volume}");
+    }
+    let lens = Ellipsoid::new([0.0; 3], [5.0, 4.0, 0.6]).unwrap();
+    let found = sampled(&lens, 1.0);
+    let (count, volume) = mass(&lens, 1.0, &found);
+    assert!((count - volume).abs() <= 0.5, "{count} {volume}");
+    assert!(!found.medial.is_empty() && !found.on_surface.is_empty());
 }
 
 #[test]
