@@ -2,7 +2,7 @@
 
 use sphpack_neighbors::point;
 use sphpack_packing::{
-    Balanced, Fields, Hybrid, Kind, Observer, Packed, Problem, Quality, StopReason,
+    Balanced, Band, Fields, Hybrid, Kind, Observer, Packed, Problem, Quality, StopReason,
 };
 use sphpack_separation::{Labels, Side};
 
@@ -14,7 +14,7 @@ use crate::report::{
     BodyReport, Counts, History, MassReport, Report, SCHEMA, SecondsReport, SurfaceReport, finite,
     peak_memory_bytes,
 };
-use crate::scene::{Masses, Method, Scene};
+use crate::scene::{BandWidth, Masses, Method, Scene};
 use crate::seen::Seen;
 use crate::table::Table;
 
@@ -131,6 +131,10 @@ fn pack<const D: usize>(
     let packed = match packing.method {
         Method::Balanced => Balanced {
             settling: packing.settling(),
+            band: match packing.band {
+                BandWidth::Auto => Band::Auto,
+                BandWidth::Full => Band::Full,
+            },
         }
         .pack(problem, observer),
         Method::Hybrid => Hybrid {

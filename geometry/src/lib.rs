@@ -29,6 +29,7 @@
 //! | 3-D: closed triangle meshes; STL | [`Mesh`] |
 //! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
 //! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`] |
+//! | points: even ([`Surface::sample`]), by a weight, for thin bodies | [`sample_weighted`], [`sample_particles`], [`thickness()`] |
 //! | underneath | [`Bvh`] |
 //! | classical inside tests (000 eq. 14) | [`angle_sum`], [`winding_number`], [`crossing_number`] |
 //!
@@ -48,6 +49,8 @@ mod segment;
 mod shapes;
 mod similarity;
 mod surface;
+mod thickness;
+mod thin;
 
 pub use bvh::Bvh;
 pub use error::GeometryError;
@@ -57,7 +60,10 @@ pub use outline::{
     CORNER_DEGREES, MITRE_LIMIT, Outline, angle_sum, crossing_number, winding_number,
 };
 pub use placed::Placed;
+pub use sample::sample_weighted;
 pub use sampling::SAGITTA_OVER_SIZE;
 pub use shapes::{Ball, Cuboid, Cylinder, Ellipsoid, Torus};
 pub use similarity::Similarity;
 pub use surface::{Closest, Feature, Features, Surface};
+pub use thickness::thickness;
+pub use thin::{SurfaceSamples, sample_particles};

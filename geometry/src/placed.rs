@@ -107,4 +107,9 @@ impl<const D: usize> Surface<D> for Placed<D> {
         let hits = self.surface.sample(count)?;
         Ok(hits.into_iter().map(|hit| self.forward(hit)).collect())
     }
+
+    fn strew(&self, count: usize) -> Vec<Closest<D>> {
+        let hits = self.surface.strew(count);
+        hits.into_iter().map(|hit| self.forward(hit)).collect()
+    }
 }

@@ -43,7 +43,7 @@ pub mod seeding;
 #[cfg(test)]
 mod tests;
 
-pub use balanced::Balanced;
+pub use balanced::{Balanced, Band};
 pub use hybrid::Hybrid;
 pub use lattice::Lattice;
 pub use masses::{MassCorrection, correct_masses};

@@ -263,7 +263,18 @@ impl<const D: usize> Packed<D> {
             .filter(|&i| particles.kind[i].is_on_surface() && particles.body[i] == Some(body))
             .map(|i| particles.position[i])
             .collect();
-        let farthest = largest(on.len(), |i| surface.surface.closest(on[i]).distance.abs());
+        // Fixed particles in the middle of a thin part are on no surface.
+        let farthest = largest(particles.len(), |i| {
+            if particles.kind[i] == Kind::Boundary && particles.body[i] == Some(body) {
+                surface
+                    .surface
+                    .closest(particles.position[i])
+                    .distance
+                    .abs()
+            } else {
+                0.0
+            }
+        });
         let spacing = Spacing::of(&on);
         SurfaceQuality {
             body: name.to_owned(),

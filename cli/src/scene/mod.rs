@@ -160,6 +160,17 @@ pub enum Finish {
     Consistent,
 }
 
+/// Which particles of a balanced packing settle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BandWidth {
+    /// Those near a surface; the others stay on their lattice.
+    #[default]
+    Auto,
+    /// All.
+    Full,
+}
+
 /// What particles weigh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -203,12 +214,14 @@ pub struct PackingSpec {
     /// The minimiser; `None` is the method's own: "lbfgs" for balanced, none for hybrid, which damps.
     #[serde(with = "named::minimiser", skip_serializing_if = "Option::is_none")]
     pub minimiser: Option<MinimiserKind>,
-    /// Methods that minimise stop where the largest force times h falls below this; `None` is 10⁻³ for an even finish,
-    /// 10⁻⁵ for a consistent one.
+    /// Methods that minimise stop where the largest force times h falls below this; `None` is 10⁻³ for an even finish
+    /// (3·10⁻⁴ with corrected masses), 10⁻⁵ for a consistent one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub residual_tolerance: Option<f64>,
     /// The finish of methods that minimise.
     pub finish: Finish,
+    /// Which particles settle, with the method balanced.
+    pub band: BandWidth,
     /// What particles weigh.
     pub masses: Masses,
     /// With corrected masses, the largest change of one, as a part of it.
@@ -219,6 +232,9 @@ pub struct PackingSpec {
     pub seed: u64,
 }
 
+/// The residual tolerance of an even finish whose masses are corrected, unless the scene says otherwise.
+const CORRECTED_TOLERANCE: f64 = 3e-4;
+
 impl PackingSpec {
     /// How methods that minimise bring particles to rest.
     pub fn settling(&self) -> Settling {
@@ -228,7 +244,10 @@ impl PackingSpec {
                 Finish::Even => sphpack_packing::Finish::Even,
                 Finish::Consistent => sphpack_packing::Finish::Consistent,
             },
-            residual_tolerance: self.residual_tolerance,
+            // Where masses are to even out what is left, less should be left.
+            residual_tolerance: self.residual_tolerance.or((self.masses == Masses::Corrected
+                && self.finish == Finish::Even)
+                .then_some(CORRECTED_TOLERANCE)),
             max_evaluations: self.max_iterations,
             ..Settling::default()
         }
@@ -248,6 +267,7 @@ impl Default for PackingSpec {
             minimiser: None,
             residual_tolerance: None,
             finish: Finish::default(),
+            band: BandWidth::default(),
             masses: Masses::default(),
             mass_spread: 0.02,
             max_iterations: hybrid.max_iterations,

@@ -44,6 +44,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # residual_tolerance = 1e-3      # stop where no force times h is larger (methods that minimise; consistent: 1e-5)
 # velocity_tolerance = 1e-4      # stop where nothing is faster (methods that damp: hybrid)
 # minimiser = "lbfgs"            # lbfgs | fire | damped; hybrid has none unless one is named
+# band = "auto"                  # balanced: only particles near a surface settle | full: all of them
 # masses = "equal"               # or "corrected": each a little more or less, so that the density is even
 # mass_spread = 0.02             # corrected masses: no mass changes by more than this part
 # max_iterations = 20000

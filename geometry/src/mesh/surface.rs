@@ -139,4 +139,8 @@ impl Surface<3> for Mesh {
         let strew = |_, wanted| self.strewn(wanted);
         crate::sample::spread(self, count, &|p| self.closest(p), strew)
     }
+
+    fn strew(&self, count: usize) -> Vec<Closest<3>> {
+        self.strewn(count).hits()
+    }
 }

@@ -6,8 +6,8 @@ use sphpack_neighbors::{Bounds, point};
 
 use super::{Outline, inside::crosses};
 use crate::GeometryError;
-use crate::sample::{Ring, along};
-use crate::segment::cross;
+use crate::sample::{Candidates, Ring, along};
+use crate::segment::{Segment, cross};
 use crate::surface::{Closest, Feature, Features, Surface};
 
 impl Outline {
@@ -149,5 +149,15 @@ impl Surface<2> for Outline {
             })
             .collect();
         Ok(along(self, &rings, count))
+    }
+
+    fn strew(&self, count: usize) -> Vec<Closest<2>> {
+        let place = |side: &Segment, before: f64| {
+            (
+                point::add_scaled(side.start, before, side.edge),
+                side.normal,
+            )
+        };
+        Candidates::systematic(count, &self.sides, Segment::length, place).hits()
     }
 }

@@ -3,7 +3,7 @@
 use sphpack_neighbors::{Bounds, point};
 
 use crate::level_inset::cut;
-use crate::surface::Closest;
+use crate::surface::{Closest, Feature};
 
 /// Leaf size of the search for the surface, in spacings: two to three leaves per point that is kept.
 const LEAF_OVER_SPACING: f64 = 0.7;
@@ -11,8 +11,26 @@ const LEAF_OVER_SPACING: f64 = 0.7;
 /// Levels of boxes at least, so that few points too are spread by area.
 const LEAST_LEVELS: usize = 5;
 
-/// How many times more a box is halved where the surface turns sharply within it.
-const EXTRA_LEVELS: usize = 2;
+/// How thoroughly boxes are searched.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Search {
+    /// How many times more a box is halved where the surface turns sharply within it.
+    extra: usize,
+    /// Whether also where the body's other side may pass through it.
+    both_sides: bool,
+}
+
+/// For points that are evened out afterwards.
+pub(super) const QUICK: Search = Search {
+    extra: 2,
+    both_sides: false,
+};
+
+/// For thin bodies.
+pub(super) const THOROUGH: Search = Search {
+    extra: 5,
+    both_sides: true,
+};
 
 /// Cosine of the angle by which the surface turns sharply.
 const SHARP: f64 = 0.87;
@@ -39,13 +57,15 @@ struct Piece<const D: usize> {
 }
 
 impl<const D: usize> Candidates<D> {
-    /// `wanted` candidates on any surface within `bounds`, found by halving boxes: each small box that the surface
-    /// passes holds a piece of its tangent plane. Some 12 queries of `near` per point of the given spacing.
+    /// `wanted` candidates on any surface within `bounds`, found by halving boxes:
+    /// each small box that the surface passes holds a piece of its tangent plane. Some 12 queries of `near` per point
+    /// of the given spacing.
     pub(crate) fn in_boxes(
         bounds: &Bounds<D>,
         near: &impl Fn([f64; D]) -> Closest<D>,
         spacing: f64,
         wanted: usize,
+        search: Search,
     ) -> Self {
         let largest = bounds.size().iter().copied().fold(0.0, f64::max) * 1.02;
         let mut leaf = LEAF_OVER_SPACING * spacing;
@@ -59,7 +79,7 @@ impl<const D: usize> Candidates<D> {
         let center = bounds.center().map(|x| x + 0.003_7 * leaf);
         let mut pieces = Vec::new();
         let root = look(near, center, 0.5 * leaf);
-        gather(near, &root, levels, EXTRA_LEVELS, &mut pieces);
+        gather(near, &root, levels, search, &mut pieces);
         let mut noise = Noise::default();
         Self::systematic(
             wanted,
@@ -102,7 +122,37 @@ impl<const D: usize> Candidates<D> {
     }
 }
 
+impl<const D: usize> Candidates<D> {
+    /// The points of a surface as candidates, whatever its area.
+    pub(crate) fn of(hits: &[Closest<D>]) -> Self {
+        Self {
+            point: hits.iter().map(|hit| hit.point).collect(),
+            normal: hits.iter().map(|hit| hit.normal).collect(),
+            area: f64::NAN,
+        }
+    }
+
+    /// The candidates as points of a surface that they are on.
+    pub(crate) fn hits(&self) -> Vec<Closest<D>> {
+        let both = self.point.iter().zip(&self.normal);
+        both.map(|(&point, &normal)| Closest {
+            point,
+            normal,
+            distance: 0.0,
+            feature: Feature::Smooth,
+        })
+        .collect()
+    }
+}
+
 impl<const D: usize> Piece<D> {
+    /// Whether another side of the body is nearer below the piece than the cube is wide.
+    fn is_thin(&self, near: &impl Fn([f64; D]) -> Closest<D>) -> bool {
+        let down = self.height + 2.0 * self.half;
+        let below = near(point::add_scaled(self.center, -down, self.normal));
+        below.distance > -1.9 * self.half
+    }
+
     /// A point of the piece.
     fn somewhere(&self, noise: &mut Noise) -> [f64; D] {
         let foot = point::add_scaled(self.center, -self.height, self.normal);
@@ -147,7 +197,7 @@ fn gather<const D: usize>(
     near: &impl Fn([f64; D]) -> Closest<D>,
     cell: &Piece<D>,
     levels: usize,
-    extra: usize,
+    search: Search,
     pieces: &mut Vec<Piece<D>>,
 ) {
     let reach = (D as f64).sqrt();
@@ -164,16 +214,21 @@ fn gather<const D: usize>(
         .collect();
     if levels > 1 {
         for child in &children {
-            gather(near, child, levels - 1, extra, pieces);
+            gather(near, child, levels - 1, search, pieces);
         }
         return;
     }
     let sharp = children
         .iter()
         .any(|child| point::dot(child.normal, children[0].normal) < SHARP);
+    let finer = Search {
+        extra: search.extra.saturating_sub(1),
+        ..search
+    };
     for child in &children {
-        if sharp && extra > 0 {
-            gather(near, child, 1, extra - 1, pieces);
+        let deeper = || sharp || search.both_sides && child.is_thin(near);
+        if search.extra > 0 && deeper() {
+            gather(near, child, 1, finer, pieces);
         } else {
             let area =
                 cut(child.normal, 0.5 * child.height / half).0 * (2.0 * half).powi(D as i32 - 1);

@@ -65,16 +65,10 @@ pub(crate) fn along<const D: usize, S: Surface<D> + ?Sized>(
         } else {
             way
         };
-        let hit = surface.closest(line.at(way).0);
-        let feature = if feature == Feature::Corner {
-            feature
-        } else {
-            hit.feature
-        };
         Closest {
             distance: 0.0,
             feature,
-            ..hit
+            ..surface.closest(line.at(way).0)
         }
     };
     let corners: Vec<Closest<D>> = runs

@@ -26,7 +26,7 @@ const LOOK: f64 = 0.02;
 /// Chains that hang together and are shorter than two spacings in all are no features at this resolution, nor are
 /// corners where only such chains end: a scanned or coarse mesh has many, and where they are held the rest cannot be
 /// even.
-pub(super) fn occupied<const D: usize, S: Surface<D> + ?Sized>(
+pub(crate) fn occupied<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     spacing: f64,
     count: usize,

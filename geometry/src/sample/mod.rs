@@ -3,22 +3,31 @@
 mod candidates;
 mod curve;
 mod features;
+mod local;
 mod polyline;
 mod ranked;
 mod relax;
 mod sheet;
 mod thinning;
 mod trace;
+mod weighted;
 
 #[cfg(test)]
 mod tests;
 
+use rayon::prelude::*;
+
 use crate::GeometryError;
-use crate::surface::{Closest, Surface};
+use crate::surface::{Closest, Feature, Surface};
 
 pub(crate) use candidates::Candidates;
+use candidates::{QUICK, THOROUGH};
 pub(crate) use curve::{Ring, along};
-pub(crate) use sheet::spread;
+pub(crate) use features::occupied;
+pub(crate) use local::Local;
+pub(crate) use sheet::{settle, spread};
+pub(crate) use thinning::keep_evenest;
+pub use weighted::sample_weighted;
 
 /// [`Surface::sample`] for a surface of which nothing but its answers is known.
 ///
@@ -55,7 +64,7 @@ pub(crate) fn evenly_near<const D: usize, S: Surface<D> + ?Sized>(
             Ok(along(surface, &rings, count))
         }
         3 => spread(surface, count, near, |spacing, wanted| {
-            Candidates::in_boxes(&bounds, look, spacing, wanted)
+            Candidates::in_boxes(&bounds, look, spacing, wanted, QUICK)
         }),
         _ => Err(GeometryError::BadParameter {
             shape: "sample",
@@ -64,4 +73,27 @@ pub(crate) fn evenly_near<const D: usize, S: Surface<D> + ?Sized>(
             needs: "2 or 3",
         }),
     }
+}
+
+/// [`Surface::strew`] for a surface of which nothing but its answers is known.
+pub(crate) fn strewn<const D: usize, S: Surface<D> + ?Sized>(
+    surface: &S,
+    count: usize,
+) -> Vec<Closest<D>> {
+    if count == 0 || D < 2 {
+        return Vec::new();
+    }
+    let spacing = (surface.measure() / count as f64).powf(1.0 / (D as f64 - 1.0));
+    let near = |p| surface.closest(p);
+    let bounds = surface.bounds();
+    let mut hits = Candidates::in_boxes(&bounds, &near, spacing, count, THOROUGH).hits();
+    hits.par_iter_mut().with_min_len(64).for_each(|hit| {
+        let found = surface.closest(hit.point);
+        hit.point = found.point;
+        // At a corner or an edge the piece's own side counts.
+        if found.feature == Feature::Smooth {
+            hit.normal = found.normal;
+        }
+    });
+    hits
 }

@@ -3,14 +3,18 @@
 use rayon::prelude::*;
 use sphpack_neighbors::{Bounds, CellList, Domain, point};
 
+use super::local::{Local, Spot, apart, greatest};
 use crate::surface::Closest;
 
 /// Range of the push, in spacings: the nearest ring of neighbours (1.07 in a perfect hexagonal lattice) and not the
 /// next (1.86), so that a row beside a sharp edge does not miss the rows beyond it.
 const REACH: f64 = 1.9;
 
-/// Steps. Nearest distances vary by 5.0 % after 20, 3.2 % after 60 (torus), 2.8 % after 300 (ellipsoid).
+/// Steps on a surface. Nearest distances vary by 5.0 % after 20, 3.2 % after 60 (torus), 2.8 % after 300 (ellipsoid).
 const STEPS: usize = 60;
+
+/// Steps on a curve, where points cannot pass each other.
+const STEPS_ON_CURVE: usize = 600;
 
 /// Longest time step. The lattice's fastest mode is stable up to 1.37, and the start is rougher than that.
 const LONGEST: f64 = 0.8;
@@ -25,7 +29,7 @@ const SHORT_LEASH: f64 = 0.03;
 const FLAT: f64 = 0.99;
 
 /// Cosine of the angle between two normals beyond which points are on opposite sides of a thin part.
-const OPPOSITE: f64 = -0.5;
+const SAME_SIDE: f64 = -0.5;
 
 /// FIRE's mixing parameter at a start, its decay, and the growth and steps of patience of the time step (Bitzek et al.,
 /// "Structural relaxation made simple", Physical Review Letters 97, 2006).
@@ -34,8 +38,9 @@ const MIXING_DECAY: f64 = 0.99;
 const GROWTH: f64 = 1.1;
 const PATIENCE: usize = 5;
 
-/// Moves all sites but the first `held` until all are spread evenly, by FIRE on the energy of a smooth repulsion
-/// along the surface. `near` is the closest point of a place near the surface. Sites end up near the surface, not
+/// Moves all sites but the first `held` until all are spread as evenly as is wanted of each, by FIRE on the energy of
+/// a smooth repulsion along the surface. Where `locals` ask for wider gaps the push is the stronger, by as much as
+/// keeps the pressure the same everywhere. `spacing` is the mean one. `near` is the closest point of a place near the surface. Sites end up near the surface, not
 /// exactly on it; only their points are meaningful.
 ///
 /// Tried and left: a longer range (2.2, 2.6) costs more and brings nothing; without the factor 1/r nearest distances
@@ -45,12 +50,14 @@ const PATIENCE: usize = 5;
 pub(super) fn even_out<const D: usize>(
     sites: &mut [Closest<D>],
     held: usize,
-    spacing: f64,
+    (locals, spacing): (&[Local], f64),
     near: &(impl Fn([f64; D]) -> Closest<D> + Sync),
 ) {
     let mut movers: Vec<Mover<D>> = sites
         .iter()
-        .map(|site| Mover {
+        .zip(locals)
+        .map(|(site, &local)| Mover {
+            local,
             point: site.point,
             normal: site.normal,
             put: site.point,
@@ -60,7 +67,7 @@ pub(super) fn even_out<const D: usize>(
         .collect();
     let mut pushes = Pushes::new(&movers, held, spacing);
     let (mut step, mut mixing, mut patience) = (0.3 * LONGEST, MIXING, 0);
-    for _ in 0..STEPS {
+    for _ in 0..if D == 2 { STEPS_ON_CURVE } else { STEPS } {
         let force = pushes.on(&movers);
         let (mut power, mut force_squared, mut speed_squared) = (0.0, 0.0, 0.0);
         for (mover, &f) in movers.iter().zip(force).skip(held) {
@@ -102,6 +109,7 @@ pub(super) fn even_out<const D: usize>(
 /// A point on its way.
 #[derive(Debug, Clone, Copy)]
 struct Mover<const D: usize> {
+    local: Local,
     point: [f64; D],
     /// Normal where it was last put onto the surface.
     normal: [f64; D],
@@ -139,8 +147,8 @@ struct Pushes<const D: usize> {
     held: usize,
     spacing: f64,
     points: Vec<[f64; D]>,
-    /// Point and normal, in the list's order.
-    slots: Vec<([f64; D], [f64; D])>,
+    /// In the list's order.
+    slots: Vec<Spot<D>>,
     by_slot: Vec<[f64; D]>,
     by_point: Vec<[f64; D]>,
 }
@@ -150,8 +158,9 @@ impl<const D: usize> Pushes<D> {
         let points: Vec<[f64; D]> = movers.iter().map(|mover| mover.point).collect();
         let bounds = Bounds::of(&points);
         let domain = Domain::new(bounds.min, bounds.max);
+        let widest = greatest(movers.iter().map(|mover| mover.local));
         Self {
-            list: CellList::new(&domain, REACH * spacing).with_skin(0.3 * spacing),
+            list: CellList::new(&domain, REACH * widest).with_skin(0.3 * spacing),
             held,
             spacing,
             slots: Vec::with_capacity(points.len()),
@@ -171,7 +180,7 @@ impl<const D: usize> Pushes<D> {
         self.slots.clear();
         self.slots.extend(order.iter().map(|&i| {
             let mover = &movers[i as usize];
-            (mover.point, mover.normal)
+            (mover.point, mover.normal, mover.local)
         }));
         let (slots, held, spacing) = (&self.slots, self.held, self.spacing);
         self.list.for_each_block(&mut self.by_slot, |block, out| {
@@ -180,7 +189,7 @@ impl<const D: usize> Pushes<D> {
                 let mut sum = [0.0; D];
                 if order[slot] as usize >= held {
                     for other in block.sources() {
-                        if let Some(push) = push(slots[slot], slots[other], spacing) {
+                        if let Some(push) = push(&slots[slot], &slots[other], spacing) {
                             sum = point::add(sum, push);
                         }
                     }
@@ -195,26 +204,31 @@ impl<const D: usize> Pushes<D> {
     }
 }
 
-/// The push of one point with its normal on another: (1 − r/R)³ / r along the surface, r in spacings.
+/// The push of one spot on another along the surface: (1 − r/R)³ / r, r in gaps that are wanted here, times the mean
+/// spacing or, between points in space, the gap.
 #[inline]
-fn push<const D: usize>(
-    (p, normal): ([f64; D], [f64; D]),
-    (other, other_normal): ([f64; D], [f64; D]),
-    spacing: f64,
-) -> Option<[f64; D]> {
-    let reach = REACH * spacing;
-    let away = point::sub(p, other);
+fn push<const D: usize>(here: &Spot<D>, other: &Spot<D>, spacing: f64) -> Option<[f64; D]> {
+    let away = point::sub(here.0, other.0);
     let squared = point::norm_squared(away);
-    if squared >= reach * reach || squared == 0.0 {
+    let widest = REACH
+        * here
+            .2
+            .spacing
+            .max(here.2.across)
+            .max(other.2.spacing.max(other.2.across));
+    if squared >= widest * widest || squared == 0.0 {
         return None;
     }
-    if point::dot(normal, other_normal) < OPPOSITE {
+    let apart = apart(here, other, SAME_SIDE)?;
+    let reach = REACH * apart;
+    if squared >= reach * reach {
         return None;
     }
     let length = squared.sqrt();
     let gap = 1.0 - length / reach;
-    let direction = point::unit(point::reject(away, normal))?;
+    let direction = point::unit(point::reject(away, here.1))?;
     // Points on top of each other part gently.
-    let r = (length / spacing).max(0.1);
-    Some(point::scale(direction, gap * gap * gap / r))
+    let r = (length / apart).max(0.1);
+    let strength = (apart / spacing).powi(D as i32 - 2);
+    Some(point::scale(direction, strength * (gap * gap * gap / r)))
 }

@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use super::candidates::Candidates;
+use super::local::Local;
 use super::{features, relax, thinning};
 use crate::GeometryError;
-use crate::surface::{Closest, Surface};
+use crate::surface::{Closest, Feature, Surface};
 
 /// Candidates per point.
 const CANDIDATES: usize = 6;
@@ -22,7 +23,7 @@ pub(crate) fn spread<const D: usize, S: Surface<D> + ?Sized>(
         return Ok(Vec::new());
     }
     let rough = (surface.measure() / count as f64).sqrt();
-    let mut sites = features::occupied(surface, rough, count);
+    let sites = features::occupied(surface, rough, count);
     if sites.len() == count {
         return Ok(sites);
     }
@@ -36,23 +37,49 @@ pub(crate) fn spread<const D: usize, S: Surface<D> + ?Sized>(
         });
     }
     let spacing = (candidates.area / count as f64).sqrt();
+    let locals = vec![Local::even(spacing); sites.len() + candidates.point.len()];
+    Ok(settle(
+        surface,
+        sites,
+        &candidates,
+        count,
+        (&locals, spacing),
+        near,
+    ))
+}
+
+/// `count` points of the surface: `held`, which stay where they are, and the evenest of the candidates, moved on until
+/// all are as far apart as `locals` (of the held points, then of the candidates; `spacing` on average) ask for.
+pub(crate) fn settle<const D: usize, S: Surface<D> + ?Sized>(
+    surface: &S,
+    held: Vec<Closest<D>>,
+    candidates: &Candidates<D>,
+    count: usize,
+    (locals, spacing): (&[Local], f64),
+    near: &(impl Fn([f64; D]) -> Closest<D> + Sync),
+) -> Vec<Closest<D>> {
+    let mut sites = held;
     let held = sites.len();
-    let kept = thinning::keep_evenest(&candidates, &sites, count - held, spacing);
+    let kept = thinning::keep_evenest(candidates, &sites, count - held, locals);
     let start: Vec<Closest<D>> = kept
         .par_iter()
         .with_min_len(64)
         .map(|&i| near(candidates.point[i]))
         .collect();
     sites.extend(start);
-    relax::even_out(&mut sites, held, spacing, near);
+    let of_kept = kept.iter().map(|&i| locals[held + i]);
+    let locals: Vec<Local> = locals[..held].iter().copied().chain(of_kept).collect();
+    relax::even_out(&mut sites, held, (&locals, spacing), near);
     sites[held..]
         .par_iter_mut()
         .with_min_len(64)
         .for_each(|site| {
+            // Held in place is only what features were given, not what came to lie on a crease.
             *site = Closest {
                 distance: 0.0,
+                feature: Feature::Smooth,
                 ..surface.closest(site.point)
             };
         });
-    Ok(sites)
+    sites
 }

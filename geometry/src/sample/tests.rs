@@ -291,3 +291,71 @@ proptest! {
         prop_assert!((mean / spacing - 1.0).abs() < 0.05);
     }
 }
+
+#[test]
+fn strewn_points_stand_for_equal_areas() {
+    // Both sides of plates much thinner than the mean distance between the points.
+    for thickness in [0.02, 0.1, 0.5] {
+        let plate = Cuboid::new([0.0; 3], [2.0, 1.0, thickness]).unwrap();
+        let strip = Cuboid::new([0.0; 2], [2.0, thickness]).unwrap();
+        let up: Vec<f64> = plate.strew(1000).iter().map(|s| s.normal[2]).collect();
+        let up_there: Vec<f64> = strip.strew(1000).iter().map(|s| s.normal[1]).collect();
+        for (normals, part) in [
+            (up, 2.0 / plate.measure()),
+            (up_there, 2.0 / strip.measure()),
+        ] {
+            assert_eq!(normals.len(), 1000);
+            for side in [1.0, -1.0] {
+                let there = normals.iter().filter(|n| **n == side).count() as f64;
+                assert!((there / 1000.0 - part).abs() < 0.02, "{there} {part}");
+            }
+        }
+    }
+    let cow = spot();
+    for site in cow.strew(2000) {
+        assert!(cow.closest(site.point).distance.abs() < 1e-12);
+    }
+    assert_eq!(Outline::naca("0015", 1.0).unwrap().strew(500).len(), 500);
+}
+
+#[test]
+fn creases_that_were_not_given_a_point_hold_none() {
+    let thick = spot().inset(0.15).unwrap();
+    let sites = thick.sample(800).unwrap();
+    let features = sites.iter().take_while(|s| s.feature != Feature::Smooth);
+    let given = features.count();
+    assert!(sites[given..].iter().all(|s| s.feature == Feature::Smooth));
+    let creased = |s: &Closest<3>| thick.closest(s.point).feature != Feature::Smooth;
+    assert!(sites[given..].iter().any(creased));
+}
+
+#[test]
+fn weights_rule_the_density() {
+    // Twice as dense at one end as at the other.
+    let weight = |s: &Closest<3>| 1.5 + 0.5 * s.point[2];
+    let ball = Ball::new([0.0; 3], 1.0).unwrap();
+    let sites = crate::sample_weighted(&ball, 3000, &weight).unwrap();
+    assert_eq!(sites.len(), 3000);
+    for zone in 0..4 {
+        let low = 0.5 * zone as f64 - 1.0;
+        let count = sites
+            .iter()
+            .filter(|s| (low..low + 0.5).contains(&s.point[2]))
+            .count();
+        let due = 3000.0 / 4.0 * (1.5 + 0.5 * (low + 0.25)) / 1.5;
+        assert!((count as f64 / due - 1.0).abs() < 0.05, "{count} {due}");
+    }
+    let square = Cuboid::new([0.0; 2], [1.0; 2]).unwrap();
+    let weight = |s: &Closest<2>| 1.0 + 3.0 * s.point[0];
+    let sites = crate::sample_weighted(&square, 200, &weight).unwrap();
+    let on = |x: f64| sites.iter().filter(|s| s.point[0] == x).count();
+    // Corners belong to two sides each: 80 and 20 points, of which two halves are the corners'.
+    assert_eq!(sites.len(), 200);
+    assert!(
+        on(1.0).abs_diff(81) <= 3 && on(0.0).abs_diff(21) <= 1,
+        "{} {}",
+        on(1.0),
+        on(0.0)
+    );
+    assert!(crate::sample_weighted(&square, 10, &|_| 0.0).is_err());
+}

@@ -5,29 +5,37 @@ use std::collections::BinaryHeap;
 use sphpack_neighbors::{Bounds, CellList, Domain, point};
 
 use super::candidates::Candidates;
+use super::local::{Local, Spot, apart, greatest};
 use super::ranked::Ranked;
 use crate::surface::Closest;
 
 /// Candidates nearer than this many spacings crowd each other: the nearest distance of a perfect hexagonal lattice.
 const REACH: f64 = 1.07;
 
-/// The places of `keep` candidates that are spread evenly between themselves and the held sites (weighted sample
-/// elimination: Yuksel, "Sample elimination for generating Poisson disk sample sets", Computer Graphics Forum 34,
-/// 2015). O(n log n).
-pub(super) fn keep_evenest<const D: usize>(
+/// Cosine of the angle between two normals up to which points are on the same side of the body.
+const SAME_SIDE: f64 = 0.0;
+
+/// The places of `keep` candidates that are spread as evenly as is wanted of them, between themselves and the held
+/// sites (weighted sample elimination: Yuksel, "Sample elimination for generating Poisson disk sample sets", Computer
+/// Graphics Forum 34, 2015). `locals` is of the held sites and then of the candidates. O(n log n).
+pub(crate) fn keep_evenest<const D: usize>(
     candidates: &Candidates<D>,
     held: &[Closest<D>],
     keep: usize,
-    spacing: f64,
+    locals: &[Local],
 ) -> Vec<usize> {
     let count = candidates.point.len();
-    let mut points = candidates.point.clone();
-    let mut normals = candidates.normal.clone();
-    points.extend(held.iter().map(|site| site.point));
-    normals.extend(held.iter().map(|site| site.normal));
-    let near = neighbors(&points, &normals, REACH * spacing);
+    let both = candidates.point.iter().zip(&candidates.normal);
+    let mut spots: Vec<Spot<D>> = both
+        .zip(&locals[held.len()..])
+        .map(|((&p, &n), &local)| (p, n, local))
+        .collect();
+    let first = held.iter().zip(locals);
+    spots.extend(first.map(|(site, &local)| (site.point, site.normal, local)));
+    let near = neighbors(&spots);
     let weight = |i: usize, j: usize| {
-        let gap = 1.0 - point::distance(points[i], points[j]) / (REACH * spacing);
+        let reach = REACH * apart(&spots[i], &spots[j], SAME_SIDE).unwrap_or(0.0);
+        let gap = 1.0 - point::distance(spots[i].0, spots[j].0) / reach;
         gap.max(0.0).powi(8)
     };
     let mut crowding: Vec<f64> = (0..count)
@@ -65,26 +73,28 @@ pub(super) fn keep_evenest<const D: usize>(
     (0..count).filter(|&i| !gone[i]).collect()
 }
 
-/// For each point those within `reach` of it on the same side of the body.
-fn neighbors<const D: usize>(
-    points: &[[f64; D]],
-    normals: &[[f64; D]],
-    reach: f64,
-) -> Vec<Vec<u32>> {
-    let bounds = Bounds::of(points);
+/// For each spot those that it crowds.
+fn neighbors<const D: usize>(spots: &[Spot<D>]) -> Vec<Vec<u32>> {
+    let points: Vec<[f64; D]> = spots.iter().map(|spot| spot.0).collect();
+    let bounds = Bounds::of(&points);
+    let reach = REACH * greatest(spots.iter().map(|spot| spot.2));
     let mut list = CellList::new(&Domain::new(bounds.min, bounds.max), reach);
-    list.update(points, |_| true);
+    list.update(&points, |_| true);
     let particle = list.target_particles();
     let mut by_slot: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
     list.for_each_block(&mut by_slot, |block, out| {
         for (lane, found) in out.iter_mut().enumerate() {
             let i = particle[block.first_slot + lane] as usize;
-            found.extend(block.sources().map(|slot| particle[slot]).filter(|&j| {
+            let crowded = |j: u32| {
                 let j = j as usize;
+                let squared = point::distance_squared(points[i], points[j]);
                 j != i
-                    && point::distance_squared(points[i], points[j]) < reach * reach
-                    && point::dot(normals[i], normals[j]) >= 0.0
-            }));
+                    && squared < reach * reach
+                    && apart(&spots[i], &spots[j], SAME_SIDE)
+                        .is_some_and(|gap| squared < (REACH * gap) * (REACH * gap))
+            };
+            let others = block.sources().map(|slot| particle[slot]);
+            found.extend(others.filter(|&j| crowded(j)));
         }
     });
     let mut near = vec![Vec::new(); points.len()];

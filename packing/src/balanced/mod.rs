@@ -1,22 +1,24 @@
 //! The balanced method: surface first, exact counts, then a minimiser. No paper has it.
 
+mod band;
 mod shares;
 #[cfg(test)]
 mod tests;
 
 use std::time::Instant;
 
-use sphpack_geometry::{Closest, Feature};
+use sphpack_geometry::{Closest, Feature, GeometryError, sample_particles};
 
 use crate::course::Course;
 use crate::forces::Forces;
 use crate::minimise::{Landscape, Settling};
 use crate::observer::{Observer, Phase};
-use crate::packed::{Packed, ParticleSurface};
+use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
-use crate::problem::{Body, PackingError, Problem};
-use crate::quality::Spacing;
-use crate::seeding::{Seeds, particle_surfaces, seed_lattice};
+use crate::problem::{PackingError, Problem};
+use crate::seeding::{Seeds, seed_lattice};
+pub use band::Band;
+use band::Part;
 use shares::Depths;
 
 /// The balanced method.
@@ -24,14 +26,20 @@ use shares::Depths;
 /// 1. Surface first: N_s particles are spread evenly over every particle surface, corners and edges first.
 /// 2. Exact counts: every body, and the fluid, gets as many particles as its volume asks for: those on the surface and
 ///    the deepest lattice sites. The particles of a region share its volume equally, to the last digit.
-/// 3. Minimise the energy of background pressure and repulsion; boundary particles slide along their surface.
+/// 3. Minimise the energy of background pressure and repulsion; boundary particles slide along their surface. Far from
+///    every surface particles stay on their lattice ([`Band`]).
 ///
 /// Nothing waits for particles to wander onto the surface, so some sixty evaluations do where 001 takes thousands.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Balanced {
     /// How the particles come to rest.
     pub settling: Settling,
+    /// Which of them move.
+    pub band: Band,
 }
+
+/// How many times the band may be widened.
+const MOST_WIDENINGS: usize = 8;
 
 impl Balanced {
     /// Packs the problem.
@@ -48,27 +56,46 @@ impl Balanced {
         problem.check()?;
         course.enter(Phase::Geometry);
         let geometry = Instant::now();
-        let surfaces = particle_surfaces(problem)?;
-        let samples = sample(problem, &surfaces)?;
+        let (surfaces, samples) = sample(problem)?;
         course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
         course.progress.on_surface = samples.iter().map(Vec::len).sum();
         course.seconds.geometry = geometry.elapsed().as_secs_f64();
 
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
+        let mut width = self.band.first_width(problem);
+        let (seeds, distance) = place(problem, &surfaces, &samples, width);
         let Seeds {
             mut particles,
             frozen_lattice,
-        } = place(problem, &surfaces, &samples);
+        } = seeds;
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         course.enter(Phase::Settling);
-        let forces = Forces::of(problem, settling.early_repulsion(problem.spacing));
-        let reach = problem.support();
-        let mut landscape =
-            Landscape::new(&mut particles, &surfaces, forces, problem.spacing, reach);
-        let stop_reason = settling.run(&mut landscape, &mut course);
-        let forces = landscape.into_forces();
+        let mut forces = Forces::of(problem, settling.early_repulsion(problem.spacing));
+        let mut stop_reason = StopReason::Converged;
+        for _ in 0..=MOST_WIDENINGS {
+            let mut part = Part::of(problem, &particles, &distance, width);
+            forces.targets_changed();
+            let mut landscape = Landscape::new(
+                &mut part.particles,
+                &surfaces,
+                forces,
+                problem.spacing,
+                problem.support(),
+            );
+            stop_reason = settling.run(&mut landscape, &mut course);
+            forces = landscape.into_forces();
+            part.write_back(&mut particles);
+            let is_settled = stop_reason == StopReason::Converged;
+            if part.is_all
+                || !is_settled
+                || part.rim_residual(problem, &mut forces) < settling.tolerance()
+            {
+                break;
+            }
+            width += problem.support();
+        }
         Ok(course.end(
             problem,
             particles,
@@ -80,30 +107,39 @@ impl Balanced {
     }
 }
 
-/// Surface particles, and the sites that are left to bodies and fluid.
+/// Surface particles, and the sites that are left to bodies and fluid; and each particle's distance from the nearest
+/// surface, or less where that is more than `near` (scene units).
 fn place<const D: usize>(
     problem: &Problem<D>,
     surfaces: &[ParticleSurface<D>],
     samples: &[Vec<Closest<D>>],
-) -> Seeds<D> {
+    near: f64,
+) -> (Seeds<D>, Vec<f64>) {
     let (filling, frozen_lattice) = seed_lattice(problem);
     let sites = filling.sites();
     let volume = filling.volume_per_site();
+    let near = near.max(2.0 * problem.spacing);
     let depths = Depths::of(
         &problem.bodies,
         problem.domain.bounds,
         problem.spacing,
-        2.0 * problem.spacing,
+        if near.is_finite() {
+            near
+        } else {
+            2.0 * problem.spacing
+        },
         &sites,
     );
     let on_surface: Vec<usize> = samples.iter().map(Vec::len).collect();
     let shares = shares::shares(problem, surfaces, &on_surface, sites.len(), volume);
     let region_of = shares::choose(&depths, sites.len(), &shares.regions, problem.seed);
     let mut particles = Particles::default();
-    for (&site, region) in sites.iter().zip(region_of) {
+    let mut distance = Vec::new();
+    for (number, (&site, region)) in sites.iter().zip(region_of).enumerate() {
         if let Some(region) = region {
             let volume = shares.regions[region].particle_volume;
             particles.push(site, Kind::Free, volume, None);
+            distance.push(depths.from_surface(number));
         }
     }
     for ((points, &volume), body) in samples.iter().zip(&shares.surface_volume).zip(0_u16..) {
@@ -113,37 +149,54 @@ fn place<const D: usize>(
                 Feature::Edge | Feature::Corner => Kind::Fixed,
             };
             particles.push(point.point, kind, volume, Some(body));
+            distance.push(0.0);
         }
     }
-    Seeds::surrounded(problem, particles, frozen_lattice, volume)
+    let inner = particles.len();
+    let seeds = Seeds::surrounded(problem, particles, frozen_lattice, volume);
+    let frozen = &seeds.particles.position[inner..];
+    let around = problem.domain.bounds.grown(problem.frozen_depth());
+    let depths = Depths::of(&problem.bodies, around, problem.spacing, 0.0, frozen);
+    distance.extend((0..frozen.len()).map(|number| depths.from_surface(number)));
+    (seeds, distance)
 }
 
-/// About N_s points on every particle surface: where corners divide a curve into runs, one more or less may divide
-/// them more evenly.
-fn sample<const D: usize>(
-    problem: &Problem<D>,
-    surfaces: &[ParticleSurface<D>],
-) -> Result<Vec<Vec<Closest<D>>>, PackingError> {
-    let of = |(surface, body): (&ParticleSurface<D>, &Body<D>)| {
-        let target = surface.target_count;
-        let counts = if D == 2 && !surface.surface.features().corners.is_empty() {
-            vec![target, target - 1, target + 1]
-        } else {
-            vec![target]
+type Sampled<const D: usize> = (Vec<ParticleSurface<D>>, Vec<Vec<Closest<D>>>);
+
+/// Every particle surface with its points. Points in the middle of parts that are too thin to have a surface count as
+/// corners: they stay where they are.
+fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingError> {
+    let mut surfaces = Vec::new();
+    let mut samples = Vec::new();
+    for body in &problem.bodies {
+        let fail = |source| PackingError::Surface {
+            body: body.name.clone(),
+            source,
         };
-        let mut best: Option<(f64, Vec<Closest<D>>)> = None;
-        for count in counts {
-            let points = surface.surface.sample(count).map_err(|source| {
-                let body = body.name.clone();
-                PackingError::Surface { body, source }
-            })?;
-            let places: Vec<[f64; D]> = points.iter().map(|hit| hit.point).collect();
-            let uneven = Spacing::of(&places).cv;
-            if best.as_ref().is_none_or(|(least, _)| uneven < least - 1e-6) {
-                best = Some((uneven, points));
-            }
-        }
-        Ok(best.map_or(Vec::new(), |(_, points)| points))
-    };
-    surfaces.iter().zip(&problem.bodies).map(of).collect()
+        let depth = body.inset_over_spacing * problem.spacing;
+        let inset = match body.surface.inset(depth) {
+            Ok(inset) => Some(inset),
+            Err(GeometryError::Vanished { .. }) => None,
+            Err(error) => return Err(fail(error)),
+        };
+        let found = sample_particles(
+            body.surface.as_ref(),
+            inset.as_deref(),
+            problem.spacing,
+            depth,
+        )
+        .map_err(fail)?;
+        let mut points = found.on_surface;
+        points.extend(found.medial.into_iter().map(|point| Closest {
+            feature: Feature::Corner,
+            point,
+            ..body.surface.closest(point)
+        }));
+        surfaces.push(ParticleSurface {
+            surface: inset.unwrap_or_else(|| body.surface.clone()),
+            target_count: points.len(),
+        });
+        samples.push(points);
+    }
+    Ok((surfaces, samples))
 }

@@ -19,8 +19,8 @@ pub(super) struct Depths {
 }
 
 impl Depths {
-    /// Exact within `near` (scene units) of a surface. One query per cube of [`CUBE`] sites a side, and one per site
-    /// where that cube is near a surface.
+    /// Exact within `near` (scene units) of a surface, and no farther from it than true elsewhere. One query per cube of
+    /// [`CUBE`] sites a side, and one per site where that cube is near a surface.
     pub(super) fn of<const D: usize>(
         bodies: &[Body<D>],
         bounds: Bounds<D>,
@@ -71,7 +71,7 @@ impl Depths {
                     let cube = cube_of(site);
                     for ((phi, body), far) in phi.iter_mut().zip(bodies).zip(&far) {
                         *phi = if far[cube].abs() > radius + near {
-                            far[cube]
+                            far[cube] - radius.copysign(far[cube])
                         } else {
                             body.surface.closest(site).distance
                         };
@@ -82,6 +82,13 @@ impl Depths {
             bodies: bodies.len(),
             phi,
         }
+    }
+
+    /// How far a site is from the nearest surface, infinite where there is none.
+    pub(super) fn from_surface(&self, site: usize) -> f64 {
+        self.phi[site * self.bodies..(site + 1) * self.bodies]
+            .iter()
+            .fold(f64::INFINITY, |least, phi| least.min(phi.abs()))
     }
 
     /// How deep a site is in a region, negative outside: in body `region` and no earlier one, or, with `region` the

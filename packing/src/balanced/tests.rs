@@ -180,9 +180,12 @@ fn a_consistent_finish_leaves_no_force_and_every_minimiser_arrives() {
             finish,
             ..Settling::default()
         };
-        let packed = Balanced { settling }
-            .pack(&problem, &mut Silent)
-            .expect("a sound problem");
+        let packed = Balanced {
+            settling,
+            ..Balanced::default()
+        }
+        .pack(&problem, &mut Silent)
+        .expect("a sound problem");
         assert_eq!(packed.stop_reason, StopReason::Converged, "{minimiser:?}");
         let fields = packed.fields(problem.kernel, problem.h_over_spacing);
         let quality = packed.quality(&fields);

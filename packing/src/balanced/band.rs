@@ -1,0 +1,116 @@
+//! Only what is near a surface moves.
+
+use crate::forces::{Forces, largest};
+use crate::particles::{Kind, Particles};
+use crate::problem::Problem;
+use sphpack_neighbors::point;
+
+/// Which particles settle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Band {
+    /// Those within two support radii of a surface; one more wherever the residual beyond asks for it. The others stay
+    /// on their lattice, and are neither integrated nor listed.
+    #[default]
+    Auto,
+    /// All.
+    Full,
+}
+
+/// Support radii that the band is wide at first.
+const FIRST_WIDTH: f64 = 2.0;
+
+/// A band that would hold more than this part of the particles that can move saves nothing: all move.
+const WORTHWHILE: f64 = 0.7;
+
+/// The particles of a band, those that they see, and those that look at them.
+pub(super) struct Part<const D: usize> {
+    /// The particles; what does not move is frozen.
+    pub(super) particles: Particles<D>,
+    /// Their places among all.
+    order: Vec<usize>,
+    /// Places here of particles just beyond the band that could move.
+    rim: Vec<usize>,
+    /// Whether it is everything.
+    pub(super) is_all: bool,
+}
+
+impl Band {
+    /// The width to begin with, scene units; infinite for everything.
+    pub(super) fn first_width<const D: usize>(self, problem: &Problem<D>) -> f64 {
+        match self {
+            Self::Auto => FIRST_WIDTH * problem.support(),
+            Self::Full => f64::INFINITY,
+        }
+    }
+}
+
+impl<const D: usize> Part<D> {
+    /// The part within `width` of a surface; `distance` is every particle's from the nearest surface, or less.
+    pub(super) fn of(
+        problem: &Problem<D>,
+        particles: &Particles<D>,
+        distance: &[f64],
+        width: f64,
+    ) -> Self {
+        let count = |is_in: &dyn Fn(usize) -> bool| {
+            (0..particles.len())
+                .filter(|&i| particles.kind[i].is_mobile() && is_in(i))
+                .count() as f64
+        };
+        let is_all = count(&|i| distance[i] <= width) >= WORTHWHILE * count(&|_| true);
+        if is_all {
+            return Self {
+                particles: particles.clone(),
+                order: (0..particles.len()).collect(),
+                rim: Vec::new(),
+                is_all,
+            };
+        }
+        let sight = problem.frozen_depth();
+        let order: Vec<usize> = (0..particles.len())
+            .filter(|&i| distance[i] <= width + 2.0 * sight)
+            .collect();
+        let mut part = particles.selected(&order);
+        let mut rim = Vec::new();
+        for (place, &i) in order.iter().enumerate() {
+            if distance[i] > width && part.kind[place] == Kind::Free {
+                part.kind[place] = Kind::Frozen;
+                if distance[i] <= width + sight {
+                    rim.push(place);
+                }
+            }
+        }
+        Self {
+            particles: part,
+            order,
+            rim,
+            is_all,
+        }
+    }
+
+    /// Brings the places that were settled back.
+    pub(super) fn write_back(&self, particles: &mut Particles<D>) {
+        for (&i, &p) in self.order.iter().zip(&self.particles.position) {
+            particles.position[i] = p;
+        }
+    }
+
+    /// The largest force times h on the particles just beyond the band. One evaluation, of these alone.
+    pub(super) fn rim_residual(&self, problem: &Problem<D>, forces: &mut Forces<D>) -> f64 {
+        if self.rim.is_empty() {
+            return 0.0;
+        }
+        let mut is_rim = vec![false; self.particles.len()];
+        for &place in &self.rim {
+            is_rim[place] = true;
+        }
+        forces.targets_changed();
+        forces.evaluate_plain(&self.particles.position, &self.particles.volume, |i| {
+            is_rim[i]
+        });
+        problem.smoothing_length()
+            * largest(self.rim.len(), |k| {
+                point::norm(forces.acceleration(self.rim[k]))
+            })
+    }
+}
