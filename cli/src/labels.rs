@@ -11,6 +11,9 @@ use crate::scene::{Role, Scene};
 /// How near to a surface particles are asked about it, in ∆s; the others follow their neighbours.
 const REACH_OVER_SPACING: f64 = 2.0;
 
+/// How far from the particle surface its layer reaches, in ∆s.
+const LAYER_OVER_SPACING: f64 = 0.5;
+
 /// Labels of all particles, frozen ones as fluid, and whether each is kept.
 pub(crate) struct Sorted {
     pub(crate) labels: Labels,
@@ -57,12 +60,31 @@ pub(crate) fn sort<const D: usize>(
     let reach = REACH_OVER_SPACING * packed.spacing;
     let inside = separate(&positions, &on_surface, &surfaces, reach)?;
 
+    // A particle that has slipped into the layer of surface particles is still part of what it was placed in.
+    let placed_in: Vec<Option<u16>> = if packed.knows_sides {
+        let near = LAYER_OVER_SPACING * packed.spacing;
+        let mut held = inside.body;
+        for ((held, &i), p) in held.iter_mut().zip(&inner).zip(&positions) {
+            let body = particles.body[i]
+                .and_then(|body| holders.iter().position(|&holder| holder == body))
+                .map(|place| place as u16);
+            let crossed = [*held, body].into_iter().flatten();
+            let is_near = |place: u16| surfaces[usize::from(place)].closest_within(*p, near);
+            if *held != body && crossed.clone().all(|place| is_near(place).is_some()) {
+                *held = body;
+            }
+        }
+        held
+    } else {
+        inside.body
+    };
+
     let mut labels = Labels {
         side: vec![Side::Fluid; particles.len()],
         body: vec![None; particles.len()],
     };
     let mut keep = vec![true; particles.len()];
-    for (&i, held) in inner.iter().zip(&inside.body) {
+    for (&i, held) in inner.iter().zip(&placed_in) {
         let sits_on = particles.body[i].filter(|_| particles.kind[i].is_on_surface());
         let body = held.map(|place| holders[usize::from(place)]);
         match (body, sits_on) {

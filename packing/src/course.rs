@@ -114,6 +114,7 @@ impl<'a> Course<'a> {
                 .map(|body| body.name.clone())
                 .collect(),
             surfaces,
+            knows_sides: false,
             stop_reason: if self.interrupted {
                 StopReason::Interrupted
             } else {

@@ -82,6 +82,8 @@ pub struct Packed<const D: usize> {
     pub bodies: Vec<String>,
     /// The surface of each body, in the order of the problem's bodies.
     pub surfaces: Vec<ParticleSurface<D>>,
+    /// Whether `particles.body` says of every free particle which body it is part of, `None` for the fluid.
+    pub knows_sides: bool,
     /// Why it stopped.
     pub stop_reason: StopReason,
     /// Iterations of the method.
@@ -92,4 +94,13 @@ pub struct Packed<const D: usize> {
     pub history: Vec<Sample>,
     /// Where the time went.
     pub seconds: Seconds,
+}
+
+impl<const D: usize> Packed<D> {
+    pub(crate) fn with_known_sides(self) -> Self {
+        Self {
+            knows_sides: true,
+            ..self
+        }
+    }
 }

@@ -50,7 +50,8 @@ pub struct Particles<const D: usize> {
     pub kind: Vec<Kind>,
     /// Volume (area in 2-D) of each particle, scene units to the power D.
     pub volume: Vec<f64>,
-    /// For boundary and fixed particles the index of the body whose surface they sit on.
+    /// For boundary and fixed particles the index of the body whose surface they sit on; for free ones that of the body
+    /// that they were placed in, by methods that know.
     pub body: Vec<Option<u16>>,
 }
 

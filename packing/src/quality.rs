@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use sphpack_kernels::KernelKind;
+use sphpack_geometry::thickness;
 use sphpack_neighbors::{Domain, KdTree, point};
 
 use crate::forces::{Forces, blocked_sum, largest};
@@ -65,7 +66,8 @@ pub struct SurfaceQuality {
     pub count: usize,
     /// Largest distance of a boundary particle from the particle surface, in ∆s.
     pub max_distance_over_spacing: f64,
-    /// Mean distance to the nearest neighbour on the surface, in ∆s.
+    /// Mean distance to the nearest neighbour on the surface, in ∆s, where the particle surface's sides are at least ∆s
+    /// apart: thinner parts have fewer particles on purpose.
     pub spacing_mean_over_spacing: f64,
     /// Coefficient of variation of that distance.
     pub spacing_cv: f64,
@@ -164,15 +166,19 @@ pub struct Spacing {
 }
 
 impl Spacing {
-    /// Of the given points. O(n log n), parallel.
-    pub fn of<const D: usize>(points: &[[f64; D]]) -> Self {
+    /// Of the points for which `is_asked` holds, others being neighbours only. O(n log n), parallel.
+    pub fn of_some<const D: usize>(
+        points: &[[f64; D]],
+        is_asked: impl Fn(usize) -> bool + Sync,
+    ) -> Self {
         let Ok(tree) = KdTree::new(points) else {
             return Self { mean: 0.0, cv: 0.0 };
         };
-        let distances: Vec<f64> = points
-            .par_iter()
+        let distances: Vec<f64> = (0..points.len())
+            .into_par_iter()
             .with_min_len(256)
-            .filter_map(|&p| tree.nearest_n(p, 2).get(1).map(|hit| hit.distance))
+            .filter(|&i| is_asked(i))
+            .filter_map(|i| tree.nearest_n(points[i], 2).get(1).map(|hit| hit.distance))
             .collect();
         let n = distances.len().max(1) as f64;
         let mean = blocked_sum(&distances, |&s| s) / n;
@@ -275,7 +281,16 @@ impl<const D: usize> Packed<D> {
                 0.0
             }
         });
-        let spacing = Spacing::of(&on);
+        // In thin parts particles sit farther apart on purpose.
+        let is_thick: Vec<bool> = on
+            .par_iter()
+            .with_min_len(64)
+            .map(|&p| {
+                let hit = surface.surface.closest(p);
+                thickness(surface.surface.as_ref(), &hit, self.spacing) >= 0.999 * self.spacing
+            })
+            .collect();
+        let spacing = Spacing::of_some(&on, |i| is_thick[i]);
         SurfaceQuality {
             body: name.to_owned(),
             measure: surface.surface.measure(),

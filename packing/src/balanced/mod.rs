@@ -63,19 +63,18 @@ impl Balanced {
 
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
-        let mut width = self.band.first_width(problem);
-        let (seeds, distance) = place(problem, &surfaces, &samples, width);
+        let mut width = self.band.first_width(problem, settling.finish);
         let Seeds {
             mut particles,
             frozen_lattice,
-        } = seeds;
+        } = place(problem, &surfaces, &samples);
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         course.enter(Phase::Settling);
         let mut forces = Forces::of(problem, settling.early_repulsion(problem.spacing));
         let mut stop_reason = StopReason::Converged;
-        for _ in 0..=MOST_WIDENINGS {
-            let mut part = Part::of(problem, &particles, &distance, width);
+        for round in 0..=MOST_WIDENINGS {
+            let mut part = Part::of(problem, &particles, width);
             forces.targets_changed();
             let mut landscape = Landscape::new(
                 &mut part.particles,
@@ -84,7 +83,7 @@ impl Balanced {
                 problem.spacing,
                 problem.support(),
             );
-            stop_reason = settling.run(&mut landscape, &mut course);
+            stop_reason = settling.run(&mut landscape, &mut course, round > 0);
             forces = landscape.into_forces();
             part.write_back(&mut particles);
             let is_settled = stop_reason == StopReason::Converged;
@@ -103,43 +102,36 @@ impl Balanced {
             surfaces,
             &forces,
             stop_reason,
-        ))
+        )
+        .with_known_sides())
     }
 }
 
-/// Surface particles, and the sites that are left to bodies and fluid; and each particle's distance from the nearest
-/// surface, or less where that is more than `near` (scene units).
+/// Surface particles, and the sites that are left to bodies and fluid.
 fn place<const D: usize>(
     problem: &Problem<D>,
     surfaces: &[ParticleSurface<D>],
     samples: &[Vec<Closest<D>>],
-    near: f64,
-) -> (Seeds<D>, Vec<f64>) {
+) -> Seeds<D> {
     let (filling, frozen_lattice) = seed_lattice(problem);
     let sites = filling.sites();
     let volume = filling.volume_per_site();
-    let near = near.max(2.0 * problem.spacing);
     let depths = Depths::of(
         &problem.bodies,
         problem.domain.bounds,
         problem.spacing,
-        if near.is_finite() {
-            near
-        } else {
-            2.0 * problem.spacing
-        },
+        2.0 * problem.spacing,
         &sites,
     );
     let on_surface: Vec<usize> = samples.iter().map(Vec::len).collect();
     let shares = shares::shares(problem, surfaces, &on_surface, sites.len(), volume);
     let region_of = shares::choose(&depths, sites.len(), &shares.regions, problem.seed);
     let mut particles = Particles::default();
-    let mut distance = Vec::new();
-    for (number, (&site, region)) in sites.iter().zip(region_of).enumerate() {
+    for (&site, region) in sites.iter().zip(region_of) {
         if let Some(region) = region {
             let volume = shares.regions[region].particle_volume;
-            particles.push(site, Kind::Free, volume, None);
-            distance.push(depths.from_surface(number));
+            let body = (region < problem.bodies.len()).then_some(region as u16);
+            particles.push(site, Kind::Free, volume, body);
         }
     }
     for ((points, &volume), body) in samples.iter().zip(&shares.surface_volume).zip(0_u16..) {
@@ -149,16 +141,9 @@ fn place<const D: usize>(
                 Feature::Edge | Feature::Corner => Kind::Fixed,
             };
             particles.push(point.point, kind, volume, Some(body));
-            distance.push(0.0);
         }
     }
-    let inner = particles.len();
-    let seeds = Seeds::surrounded(problem, particles, frozen_lattice, volume);
-    let frozen = &seeds.particles.position[inner..];
-    let around = problem.domain.bounds.grown(problem.frozen_depth());
-    let depths = Depths::of(&problem.bodies, around, problem.spacing, 0.0, frozen);
-    distance.extend((0..frozen.len()).map(|number| depths.from_surface(number)));
-    (seeds, distance)
+    Seeds::surrounded(problem, particles, frozen_lattice, volume)
 }
 
 type Sampled<const D: usize> = (Vec<ParticleSurface<D>>, Vec<Vec<Closest<D>>>);

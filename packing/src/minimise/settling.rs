@@ -95,16 +95,28 @@ impl Settling {
         }
     }
 
-    /// Settles the landscape's particles; its repulsion should be [`Settling::early_repulsion`].
+    fn begin_end<const D: usize>(&self, landscape: &mut Landscape<'_, D>) {
+        if self.finish == Finish::Consistent {
+            landscape.hold_surface();
+        }
+        landscape.set_repulsion(self.last_repulsion(landscape.spacing()));
+    }
+
+    /// Settles the landscape's particles; its repulsion should be [`Settling::early_repulsion`]. With `is_again` they
+    /// have been through the strong repulsion before.
     pub(crate) fn run<const D: usize>(
         &self,
         landscape: &mut Landscape<'_, D>,
         course: &mut Course<'_>,
+        is_again: bool,
     ) -> StopReason {
         let mut minimiser = self.minimiser.build::<D>();
         let begin = landscape.evaluations();
         let tolerance = self.tolerance();
-        let mut early = true;
+        let mut early = !is_again;
+        if is_again {
+            self.begin_end(landscape);
+        }
         let mut noted = 0;
         let (mut lowest, mut energy_then, mut lowest_at) = (f64::INFINITY, f64::INFINITY, begin);
         let reason = loop {
@@ -130,10 +142,7 @@ impl Settling {
                 let settled = residual < EARLY_END * tolerance;
                 if over || settled || step == Step::Stuck {
                     early = false;
-                    if self.finish == Finish::Consistent {
-                        landscape.hold_surface();
-                    }
-                    landscape.set_repulsion(self.last_repulsion(landscape.spacing()));
+                    self.begin_end(landscape);
                     minimiser.reset();
                     (lowest, lowest_at) = (f64::INFINITY, evaluations);
                     energy_then = landscape.energy();
