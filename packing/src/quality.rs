@@ -1,8 +1,8 @@
 //! Measures of a particle set, the same for every method and for anybody's particles.
 
 use rayon::prelude::*;
-use sphpack_kernels::KernelKind;
 use sphpack_geometry::thickness;
+use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, KdTree, point};
 
 use crate::forces::{Forces, blocked_sum, largest};

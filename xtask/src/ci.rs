@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Instant;
 
-use crate::{reproduce, root, tidy};
+use crate::{balanced, reproduce, root, tidy};
 
 /// Runs every check; the first that fails ends it.
 pub(crate) fn run() -> Result<(), String> {
@@ -26,10 +26,12 @@ pub(crate) fn run() -> Result<(), String> {
     )?;
     // The README's test command.
     cargo(&["test", "--workspace"], &[])?;
-    reproduce::run(&reproduce::Settings {
+    let quick = reproduce::Settings {
         quick: true,
         ..reproduce::Settings::default()
-    })
+    };
+    reproduce::run(&quick)?;
+    balanced::run(&quick)
 }
 
 fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {

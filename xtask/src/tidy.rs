@@ -31,7 +31,7 @@ const GRAPH: [(&str, &[&str]); 7] = [
 const MOST_LINES: usize = 500;
 
 /// Files that every project has.
-const REQUIRED: [&str; 10] = [
+const REQUIRED: [&str; 11] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -42,6 +42,7 @@ const REQUIRED: [&str; 10] = [
     ".ci/run",
     "scenes/README.md",
     "docs/reproduction.md",
+    "docs/balanced.md",
 ];
 
 /// Checks the workspace at `root`.

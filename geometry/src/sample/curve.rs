@@ -29,9 +29,8 @@ struct Run {
 }
 
 /// `count` points evenly along `rings`, put onto `surface`: corners first, of which those nearer than half a spacing
-/// share one; then the runs between them in turn. A run gets a number of intervals in proportion to its length, by
-/// largest remainders, at least one where it joins corners. Where there are fewer points than corners, evenly taken
-/// corners.
+/// share one; then the runs between them in turn. A run gets the number of intervals that its length
+/// asks for, at least one where it joins corners. Where there are fewer points than corners, evenly taken corners.
 pub(crate) fn along<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     rings: &[Ring<D>],
@@ -127,8 +126,9 @@ fn runs_of<const D: usize>(
         .collect()
 }
 
-/// How many of `count` intervals each run gets: in proportion to its length by largest remainders, at least one where
-/// it starts at a corner (of which there are at most `count`).
+/// How many of `count` intervals each run gets: as its length asks, so that the intervals' lengths differ least (their
+/// sum of squares Σ L²/n is smallest, which the next interval lowers by L²/n(n + 1); for short runs that is not the
+/// same as largest remainders), and at least one where it starts at a corner (of which there are at most `count`).
 fn shares(runs: &[Run], count: usize) -> Vec<usize> {
     let total: f64 = runs.iter().map(|run| run.length).sum();
     let quota = |i: usize| runs[i].length / total * count as f64;
@@ -137,9 +137,10 @@ fn shares(runs: &[Run], count: usize) -> Vec<usize> {
         .map(|i| (quota(i).floor() as usize).max(fewest(i)))
         .collect();
     let mut given: usize = shares.iter().sum();
-    // One interval at a time to the run that lacks most …
+    // One interval at a time to the run that gains most …
     let lack = |index: usize, share: usize| Ranked {
-        rank: quota(index) - share as f64,
+        // A loop without corners that has none gets its first from seven tenths of an interval on.
+        rank: quota(index).powi(2) / (share as f64 * (share + 1) as f64).max(0.5),
         index,
     };
     let mut lacking: BinaryHeap<Ranked> = (0..runs.len()).map(|i| lack(i, shares[i])).collect();
@@ -151,9 +152,9 @@ fn shares(runs: &[Run], count: usize) -> Vec<usize> {
         given += 1;
         lacking.push(lack(i, shares[i]));
     }
-    // … or from the one that has most beyond its due, where many short runs took one each.
+    // … or from the one that loses least, where many short runs took one each.
     let excess = |index: usize, share: usize| Ranked {
-        rank: share as f64 - quota(index),
+        rank: -quota(index).powi(2) / (share as f64 * (share as f64 - 1.0)).max(0.5),
         index,
     };
     let mut rich: BinaryHeap<Ranked> = (0..runs.len())

@@ -95,15 +95,16 @@ impl Balanced {
             }
             width += problem.support();
         }
-        Ok(course.end(
-            problem,
-            particles,
-            frozen_lattice,
-            surfaces,
-            &forces,
-            stop_reason,
-        )
-        .with_known_sides())
+        Ok(course
+            .end(
+                problem,
+                particles,
+                frozen_lattice,
+                surfaces,
+                &forces,
+                stop_reason,
+            )
+            .with_known_sides())
     }
 }
 

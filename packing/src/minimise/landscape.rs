@@ -9,8 +9,12 @@ use super::vectors;
 use crate::forces::Forces;
 use crate::on_surface::OnSurface;
 use crate::packed::ParticleSurface;
-use crate::particles::Particles;
+use crate::particles::{Kind, Particles};
 use crate::repulsion::Repulsion;
+
+/// A surface that turns by more than 8° (this cosine) within twice this step, in ∆s, has a crease there.
+const CREASE_STEP: f64 = 1e-2;
+const CREASE_COSINE: f64 = 0.99;
 
 /// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R over the places of the mobile particles, and its forces −∇E;
 /// boundary particles stay on their surfaces, fixed and frozen ones where they are.
@@ -168,10 +172,39 @@ impl<'a, const D: usize> Landscape<'a, D> {
     /// Holds boundary particles where they are from now on.
     pub fn hold_surface(&mut self) {
         let kind = &self.particles.kind;
-        self.mobile
-            .retain(|&i| kind[i as usize] == crate::Kind::Free);
+        self.mobile.retain(|&i| kind[i as usize] == Kind::Free);
         self.force.resize(self.mobile.len(), [0.0; D]);
         self.evaluate();
+    }
+
+    /// Holds boundary particles that sit on a crease of their surface where they are: there the force jumps from one
+    /// side to the other, so that it never vanishes and line searches creep. Needs to be followed by an evaluation.
+    pub fn hold_on_creases(&mut self) {
+        let (particles, surfaces) = (&*self.particles, self.surfaces);
+        let step = CREASE_STEP * self.spacing;
+        let is_smooth = |&i: &u32| {
+            let i = i as usize;
+            if particles.kind[i] != Kind::Boundary {
+                return true;
+            }
+            let surface = &surfaces[usize::from(particles.body[i].unwrap_or(0))].surface;
+            (0..D).all(|k| {
+                let normal = |shift: f64| {
+                    let mut p = particles.position[i];
+                    p[k] += shift;
+                    surface.closest(p).normal
+                };
+                point::dot(normal(step), normal(-step)) > CREASE_COSINE
+            })
+        };
+        self.mobile = self
+            .mobile
+            .par_iter()
+            .with_min_len(256)
+            .copied()
+            .filter(is_smooth)
+            .collect();
+        self.force.resize(self.mobile.len(), [0.0; D]);
     }
 
     fn project(&mut self) {

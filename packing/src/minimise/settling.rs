@@ -96,8 +96,9 @@ impl Settling {
     }
 
     fn begin_end<const D: usize>(&self, landscape: &mut Landscape<'_, D>) {
-        if self.finish == Finish::Consistent {
-            landscape.hold_surface();
+        match self.finish {
+            Finish::Even => landscape.hold_on_creases(),
+            Finish::Consistent => landscape.hold_surface(),
         }
         landscape.set_repulsion(self.last_repulsion(landscape.spacing()));
     }
