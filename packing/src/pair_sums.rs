@@ -43,6 +43,9 @@ pub(crate) fn unit(smoothing_length: f64) -> f64 {
     (-smoothing_length.log2().floor()).exp2()
 }
 
+/// In parts of h, a distance that is not near zero.
+const APART: f64 = 1e-3;
+
 /// The radii of the list's shells for a kernel: where the repulsion ends, where its second and third piece begin.
 pub(crate) struct Shells {
     pub(crate) reach: f64,
@@ -53,8 +56,10 @@ impl<const D: usize> WithKernel<D> for Shells {
 
     fn call<K: Kernel<D>>(self, kernel: K) -> Self::Output {
         let [_, second, third] = K::Profile::STARTS.map(|q| q * kernel.smoothing_length());
-        // Beyond the second shell nothing repels.
-        let second = second.max(self.reach);
+        // Beyond the first shell nothing repels; beyond the second no distance is near zero, where the roots fail.
+        let second = second
+            .max(self.reach)
+            .max(APART * kernel.smoothing_length());
         [self.reach, second, third.max(second)]
     }
 }

@@ -7,7 +7,7 @@ mod tests;
 
 use std::time::Instant;
 
-use sphpack_geometry::{Closest, Feature, GeometryError, sample_particles};
+use sphpack_geometry::{Closest, Feature, GeometryError, SurfaceSamples, sample_particles};
 
 use crate::course::Course;
 use crate::forces::Forces;
@@ -15,7 +15,7 @@ use crate::minimise::{Landscape, Settling};
 use crate::observer::{Observer, Phase};
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
-use crate::problem::{PackingError, Problem};
+use crate::problem::{DEFAULT_INSET_OVER_SPACING, PackingError, Problem};
 use crate::seeding::{Seeds, seed_lattice};
 pub use band::Band;
 use band::Part;
@@ -126,7 +126,13 @@ fn place<const D: usize>(
     );
     let on_surface: Vec<usize> = samples.iter().map(Vec::len).collect();
     let shares = shares::shares(problem, surfaces, &on_surface, sites.len(), volume);
-    let region_of = shares::choose(&depths, sites.len(), &shares.regions, problem.seed);
+    let region_of = shares::choose(
+        &depths,
+        sites.len(),
+        &shares.regions,
+        problem.spacing,
+        problem.seed,
+    );
     let mut particles = Particles::default();
     for (&site, region) in sites.iter().zip(region_of) {
         if let Some(region) = region {
@@ -160,17 +166,31 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
             source,
         };
         let depth = body.inset_over_spacing * problem.spacing;
+        // A deeper surface than usual is asked for as it is.
+        let is_usual = body.inset_over_spacing <= DEFAULT_INSET_OVER_SPACING;
         let inset = match body.surface.inset(depth) {
             Ok(inset) => Some(inset),
-            Err(GeometryError::Vanished { .. }) => None,
+            Err(GeometryError::Vanished { .. }) if is_usual => None,
             Err(error) => return Err(fail(error)),
         };
-        let found = sample_particles(
-            body.surface.as_ref(),
-            inset.as_deref(),
-            problem.spacing,
-            depth,
-        )
+        let found = match &inset {
+            Some(surface) if !is_usual => {
+                let count = surface.measure() / problem.spacing.powi(D as i32 - 1);
+                surface
+                    .sample(count.round().max(1.0) as usize)
+                    .map(|on_surface| SurfaceSamples {
+                        on_surface,
+                        medial: Vec::new(),
+                        medial_volume: 0.0,
+                    })
+            }
+            _ => sample_particles(
+                body.surface.as_ref(),
+                inset.as_deref(),
+                problem.spacing,
+                depth,
+            ),
+        }
         .map_err(fail)?;
         let mut points = found.on_surface;
         points.extend(found.medial.into_iter().map(|point| Closest {

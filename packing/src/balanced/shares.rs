@@ -249,18 +249,23 @@ fn is_inside<const D: usize>(inner: &dyn Surface<D>, outer: &dyn Surface<D>) -> 
 }
 
 /// The region of every site that is kept, `None` for those left out: in every region the deepest are kept. Fewer than
-/// asked for only where there are not enough sites.
+/// asked for only where there are not enough sites. Depths are compared to within 10⁻⁹ ∆s, so that neither the unit of
+/// length nor the place of the origin decides between equals.
 pub(super) fn choose(
     depths: &Depths,
     sites: usize,
     regions: &[Share],
+    spacing: f64,
     seed: u64,
 ) -> Vec<Option<usize>> {
     let mut region_of = vec![None; sites];
     for (region, share) in regions.iter().enumerate() {
         let mut candidates: Vec<(f64, u64, usize)> = (0..sites)
             .filter(|&i| region_of[i].is_none())
-            .map(|i| (depths.within(region, i), scrambled(i as u64 ^ seed), i))
+            .map(|i| {
+                let depth = (depths.within(region, i) / spacing * 1e9).round();
+                (depth, scrambled(i as u64 ^ seed), i)
+            })
             .collect();
         // Deepest first; equals in no order that favours a side.
         let order =

@@ -122,22 +122,34 @@ fn check<const D: usize>(
     let weights: Vec<f64> = (0..positions.len())
         .map(|i| 0.01 * (1.0 + 0.3 * (i as f64).cos()) * scene_unit.powi(D as i32))
         .collect();
+    check_with(&domain, &positions, &weights, kind, h, Repulsion::none())?;
     let repulsion = Repulsion::new(0.8 * h, STRENGTH);
+    check_with(&domain, &positions, &weights, kind, h, repulsion)
+}
+
+fn check_with<const D: usize>(
+    domain: &Domain<D>,
+    positions: &[[f64; D]],
+    weights: &[f64],
+    kind: KernelKind,
+    h: f64,
+    repulsion: Repulsion,
+) -> Result<(), TestCaseError> {
     let plain = Plain {
-        domain: &domain,
-        positions: &positions,
-        weights: &weights,
+        domain,
+        positions,
+        weights,
         repulsion,
     };
     let expected = kind.with(h, &plain);
     let reach = repulsion.reach();
-    let mut list = CellList::new(&domain, kind.support_over_h() * h)
+    let mut list = CellList::new(domain, kind.support_over_h() * h)
         .with_skin(0.2 * h)
         .with_shells(kind.with::<D, _>(h, Shells { reach }));
-    list.update(&positions, Plain::<D>::is_target);
+    list.update(positions, Plain::<D>::is_target);
     let mut slots: Vec<Slot> = Vec::new();
     let unit = unit(h);
-    list.gather(&positions, &weights, unit, &mut slots);
+    list.gather(positions, weights, unit, &mut slots);
     for level in levels() {
         let mut out = vec![Sums::ZERO; list.targets()];
         let pairs = PairLoop {
