@@ -321,7 +321,7 @@ impl<const D: usize> Problem<D> {
             frozen,
             neighbors,
             memory_bytes: bytes + 3e7,
-            seconds_per_evaluation: particles * neighbors / 1.5e8,
+            seconds_per_evaluation: particles * neighbors / 3.5e8,
         })
     }
 }

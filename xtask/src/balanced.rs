@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
+use sphpack::scene::Masses;
 use sphpack::{Options, Outcome, run as pack};
 use sphpack_packing::{Kind, Silent};
 
@@ -74,6 +75,9 @@ fn run_row(row: &Row, settings: &Settings) -> Result<Option<Outcome>, String> {
     };
     scene.spacing = row.spacing;
     scene.packing.finish = row.finish;
+    if row.corrected {
+        scene.packing.masses = Masses::Corrected;
+    }
     if row.patient {
         scene.packing.residual_tolerance = Some(1e-9);
         scene.packing.max_iterations = row.evaluations;
@@ -100,6 +104,8 @@ struct Figures {
     volume_off: [f64; 2],
     seconds: f64,
     converged: bool,
+    /// Of corrected masses.
+    spread: Option<f64>,
 }
 
 impl Figures {
@@ -142,6 +148,7 @@ impl Figures {
             volume_off,
             seconds: report.seconds.total,
             converged: report.converged,
+            spread: report.mass_correction.map(|correction| correction.spread),
         }
     }
 
@@ -184,6 +191,10 @@ impl Figures {
         need(self.cv <= 0.04, "spacing CV");
         need(self.closest >= row.closest_bar(), "closest pair");
         need(
+            self.spread.is_none_or(|spread| spread <= 0.02 + 1e-9),
+            "mass spread",
+        );
+        need(
             self.volume_off[0] <= 0.003 || self.volume_off[1] <= 0.5,
             "volume",
         );
@@ -191,11 +202,14 @@ impl Figures {
     }
 
     fn line(&self, row: &Row, misses: &[String]) -> String {
-        let verdict = if misses.is_empty() {
+        let mut verdict = if misses.is_empty() {
             "pass".to_owned()
         } else {
             format!("**{}**", misses.join(", "))
         };
+        if let Some(spread) = self.spread {
+            let _ = write!(verdict, " (masses within ±{:.1} %)", 100.0 * spread);
+        }
         let mut line = head(row);
         let percent = |x: f64| format!("{:.3} %", 100.0 * x);
         // Writing to a string cannot fail.

@@ -15,7 +15,7 @@ use crate::picture::{PictureFormat, Subject, draw};
 use crate::plan::{dimension, plan};
 use crate::report::peak_memory_bytes;
 use crate::run::{Options, Outcome, run as pack};
-use crate::scene::{METHODS, Method, Scene, advice};
+use crate::scene::{Finish, METHODS, Method, PackingSpec, Scene, advice};
 
 /// The margin around a body without a scene, in ∆s.
 const MARGIN_OVER_SPACING: f64 = 8.0;
@@ -24,7 +24,13 @@ const MARGIN_OVER_SPACING: f64 = 8.0;
 const MAX_THREADS: usize = 1024;
 
 /// Evaluations that the time estimate of a dry run reckons with.
-const TYPICAL_EVALUATIONS: f64 = 1500.0;
+fn typical_evaluations(packing: &PackingSpec) -> f64 {
+    match (packing.method, packing.finish) {
+        (Method::Balanced, Finish::Even) => 80.0,
+        (Method::Balanced, Finish::Consistent) => 500.0,
+        _ => 1500.0,
+    }
+}
 
 pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let begin = Instant::now();
@@ -140,10 +146,11 @@ fn dry_run(scene: &Scene) -> Result<u8, Error> {
     let plan = plan(scene, None)?;
     let estimate = plan.estimate;
     let gibibytes = |bytes: f64| bytes / 1_073_741_824.0;
+    let evaluations = typical_evaluations(&scene.packing);
     let seconds =
-        estimate.seconds_per_evaluation * TYPICAL_EVALUATIONS / rayon::current_num_threads() as f64;
+        estimate.seconds_per_evaluation * evaluations / rayon::current_num_threads() as f64;
     say(&format!(
-        "  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {:.2} GiB of {:.1} GiB that are free\n  time       about {} for {TYPICAL_EVALUATIONS} evaluations on {} threads, to a factor of two\nnothing was written (--dry-run)\n",
+        "  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {:.2} GiB of {:.1} GiB that are free\n  time       about {} for {evaluations} evaluations of all particles on {} threads, to a factor of two\nnothing was written (--dry-run)\n",
         crate::picture::grouped(estimate.particles as usize),
         plan.dimension,
         crate::picture::grouped(estimate.frozen as usize),

@@ -133,7 +133,7 @@ fn distances<const D: usize>(
             if particles.kind[i].is_on_surface() {
                 0.0
             } else {
-                depths.from_surface(i)
+                depths.to_surface(i)
             }
         })
         .collect()

@@ -85,7 +85,7 @@ impl Depths {
     }
 
     /// How far a site is from the nearest surface, infinite where there is none.
-    pub(super) fn from_surface(&self, site: usize) -> f64 {
+    pub(super) fn to_surface(&self, site: usize) -> f64 {
         self.phi[site * self.bodies..(site + 1) * self.bodies]
             .iter()
             .fold(f64::INFINITY, |least, phi| least.min(phi.abs()))
