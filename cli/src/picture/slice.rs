@@ -24,8 +24,9 @@ impl Cut {
     /// Through the middle of the first body, across the axis that shows most of the solid.
     pub(super) fn of(subject: &Subject<'_>) -> Self {
         let table = subject.table;
+        let first = first_body(subject);
         let solid: Vec<[f64; 3]> = (0..table.len())
-            .filter(|&i| table.side[i] == Side::Solid && table.body[i] == first_body(subject))
+            .filter(|&i| table.side[i] == Side::Solid && table.body[i] == first)
             .map(|i| table.position[i])
             .collect();
         let middle: [f64; 3] = if solid.is_empty() {
