@@ -1,20 +1,19 @@
 //! How particles settle: lattices, forces, capture, methods and measures.
 //!
-//! A [`Problem`] is a box, a spacing and bodies; a method such as [`Hybrid`] turns it into a [`Packed`] set of
-//! particles; [`Packed::quality`] says how good it is.
+//! A [`Problem`] is a box, a spacing and bodies; a method, [`Balanced`] or [`Hybrid`], turns it into a [`Packed`] set
+//! of particles; [`Packed::quality`] says how good it is.
 //!
 //! ```
 //! use sphpack_geometry::Ball;
 //! use sphpack_neighbors::Domain;
-//! use sphpack_packing::{Hybrid, Problem, Silent};
+//! use sphpack_packing::{Balanced, Problem, Silent};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let cylinder = Ball::new([0.0, 0.0], 1.0)?;
 //! let problem = Problem::new(Domain::new([-2.0, -2.0], [2.0, 2.0]), 0.4).body("cylinder", cylinder);
-//! let method = Hybrid { max_iterations: 60, ..Hybrid::default() }; // a taste; the default is 20,000
-//! let packed = method.pack(&problem, &mut Silent)?;
+//! let packed = Balanced::default().pack(&problem, &mut Silent)?;
 //! let quality = packed.quality(&packed.fields(problem.kernel, problem.h_over_spacing));
-//! assert!(quality.density.linf < 0.1);
+//! assert!(quality.density.linf < 0.01);
 //! assert!(quality.surface[0].max_distance_over_spacing < 1e-9);
 //! # Ok(())
 //! # }

@@ -1,6 +1,7 @@
 //! The balanced method: surface first, exact counts, then a minimiser. No paper has it.
 
 mod band;
+mod clashes;
 mod shares;
 #[cfg(test)]
 mod tests;
@@ -19,6 +20,7 @@ use crate::problem::{DEFAULT_INSET_OVER_SPACING, PackingError, Problem};
 use crate::seeding::{Seeds, seed_lattice};
 pub use band::Band;
 use band::Part;
+use clashes::Clash;
 use shares::Depths;
 
 /// The balanced method.
@@ -56,7 +58,11 @@ impl Balanced {
         problem.check()?;
         course.enter(Phase::Geometry);
         let geometry = Instant::now();
-        let (surfaces, samples) = sample(problem)?;
+        let (mut surfaces, mut samples) = sample(problem)?;
+        let clashes = clashes::resolve(&mut samples, problem.spacing);
+        for (surface, points) in surfaces.iter_mut().zip(&samples) {
+            surface.target_count = points.len();
+        }
         course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
         course.progress.on_surface = samples.iter().map(Vec::len).sum();
         course.seconds.geometry = geometry.elapsed().as_secs_f64();
@@ -67,7 +73,7 @@ impl Balanced {
         let Seeds {
             mut particles,
             frozen_lattice,
-        } = place(problem, &surfaces, &samples);
+        } = place(problem, &surfaces, &samples, &clashes);
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         course.enter(Phase::Settling);
@@ -113,6 +119,7 @@ fn place<const D: usize>(
     problem: &Problem<D>,
     surfaces: &[ParticleSurface<D>],
     samples: &[Vec<Closest<D>>],
+    clashes: &[Clash],
 ) -> Seeds<D> {
     let (filling, frozen_lattice) = seed_lattice(problem);
     let sites = filling.sites();
@@ -125,7 +132,7 @@ fn place<const D: usize>(
         &sites,
     );
     let on_surface: Vec<usize> = samples.iter().map(Vec::len).collect();
-    let shares = shares::shares(problem, surfaces, &on_surface, sites.len(), volume);
+    let shares = shares::shares(problem, surfaces, &on_surface, clashes, sites.len(), volume);
     let region_of = shares::choose(
         &depths,
         sites.len(),

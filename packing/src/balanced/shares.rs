@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use sphpack_geometry::Surface;
 use sphpack_neighbors::{Bounds, point};
 
+use super::clashes::Clash;
 use crate::packed::ParticleSurface;
 use crate::problem::{Body, Problem};
 
@@ -165,6 +166,7 @@ pub(super) fn shares<const D: usize>(
     problem: &Problem<D>,
     surfaces: &[ParticleSurface<D>],
     on_surface: &[usize],
+    clashes: &[Clash],
     sites: usize,
     volume_per_site: f64,
 ) -> Shares {
@@ -177,8 +179,10 @@ pub(super) fn shares<const D: usize>(
         .collect();
     let surface_volume: Vec<f64> = layers
         .iter_mut()
-        .zip(on_surface)
-        .map(|(layer, &count)| {
+        .zip(on_surface.iter().zip(clashes))
+        .map(|(layer, (&count, clash))| {
+            // Points that were left to another body are still part of this one's layer.
+            let count = count + clash.removed;
             let whole = layer.inner + layer.outer;
             let one = whole / count.max(1) as f64;
             let volume = one.clamp(
@@ -189,7 +193,7 @@ pub(super) fn shares<const D: usize>(
             let taken = volume * count as f64 / whole.max(f64::MIN_POSITIVE);
             *layer = Layer {
                 inner: layer.inner * taken,
-                outer: layer.outer * taken,
+                outer: (layer.outer * taken - 0.5 * volume * clash.shared as f64).max(0.0),
             };
             volume
         })

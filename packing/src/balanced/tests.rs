@@ -1,12 +1,15 @@
 //! What holds of every balanced packing.
 
+use std::sync::Arc;
+
 use proptest::prelude::*;
 use sphpack_geometry::{Ball, Cuboid, GeometryError, Outline, Similarity};
 use sphpack_neighbors::{Domain, point};
 
 use crate::minimise::Finish;
 use crate::{
-    Balanced, Kind, MinimiserKind, Packed, Problem, Settling, Silent, StopReason, correct_masses,
+    Balanced, Body, Kind, MinimiserKind, Packed, Problem, Settling, Silent, StopReason,
+    correct_masses,
 };
 
 fn pack<const D: usize>(problem: &Problem<D>) -> Packed<D> {
@@ -169,6 +172,29 @@ fn bodies_inside_bodies_and_holes_get_their_share() {
         "{shell}"
     );
     assert!(linf(&problem, &packed) < 4e-3);
+}
+
+/// Bodies that touch, and bodies with a slit between them, on exact and on inset surfaces.
+#[test]
+fn surfaces_near_each_other_keep_particles_apart() {
+    for gap in [0.0, 0.3, 1.5] {
+        for inset_over_spacing in [0.0, 0.5] {
+            let body = |name: &str, min: [f64; 2], max: [f64; 2]| Body {
+                name: name.to_owned(),
+                surface: Arc::new(Cuboid::new(min, max).expect("a box")),
+                inset_over_spacing,
+            };
+            let spacing = 0.07;
+            let problem = Problem::new(Domain::new([-1.2, -1.0], [1.2, 1.0]), spacing)
+                .placed_body(body("left", [-0.8, -0.4], [-gap * spacing, 0.4]))
+                .placed_body(body("right", [0.0, -0.4], [0.8, 0.4]));
+            let packed = pack(&problem);
+            let quality = packed.quality(&packed.fields(problem.kernel, problem.h_over_spacing));
+            let what = format!("gap {gap}, inset {inset_over_spacing}: {quality:?}");
+            assert!(quality.closest_pair_over_spacing > 0.6, "{what}");
+            assert!(quality.density.linf < 0.05, "{what}");
+        }
+    }
 }
 
 #[test]
