@@ -14,9 +14,10 @@
 //!   differences, 60 a step), in the hope that close pairs stay apart without repulsion: from an even packing of the
 //!   starfish at ∆s = 0.05 it needed more evaluations than L-BFGS, and its pairs came as near (0.77 ∆s). Where
 //!   repulsion holds a pair apart there is no resting place nearby without it.
-//! - Annealing: 5, 10, 20 rounds of random kicks of 0.1, 0.2, 0.3, 0.5 ∆s that fade out, each followed by 15 steps. On
-//!   starfish, cylinder and sphere nothing within 330 evaluations came below what L-BFGS reaches in as many without
-//!   (0.11 %, 0.11 %, 0.14 %); kicks of 0.5 ∆s melt the lattice.
+//! - Annealing: 5 to 20 rounds of random kicks of 0.1 to 0.5 ∆s that fade out, each followed by 15 steps. Within 330
+//!   evaluations, on starfish, cylinder and sphere, none came below what L-BFGS alone reached in as many; kicks of
+//!   0.5 ∆s melted the starfish. Tried before volumes were shared out by layers; small round bodies in 3-D, where
+//!   disorder is most of the error, may be worth another look.
 //! - A few dozen careful FIRE steps before L-BFGS: capped L-BFGS steps reach the same density in fewer evaluations
 //!   from the start (63 instead of 103 on every 2-D scene here).
 
