@@ -166,7 +166,7 @@ impl Hybrid {
             course.progress.tolerance = settling.tolerance();
             let reach = problem.support();
             let mut landscape = Landscape::new(&mut particles, &surfaces, forces, spacing, reach);
-            stop_reason = settling.run(&mut landscape, &mut course, false);
+            stop_reason = settling.run(&mut landscape, &mut course, problem.perfect_gamma(), false);
             forces = landscape.into_forces();
         }
         Ok(course.end(

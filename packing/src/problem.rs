@@ -208,6 +208,11 @@ impl<const D: usize> Problem<D> {
         self.lattice.unwrap_or_else(|| Lattice::auto(D))
     }
 
+    /// Γ of that lattice, undisturbed, where it fills the box. The problem must have passed [`Problem::check`].
+    pub fn perfect_gamma(&self) -> f64 {
+        self.filling().gamma(self.kernel, self.smoothing_length())
+    }
+
     /// The lattice fitted to the box. The problem must have passed [`Problem::check`].
     pub fn filling(&self) -> Filling<D> {
         self.chosen_lattice().fill(self.domain.bounds, self.spacing)

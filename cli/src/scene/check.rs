@@ -262,6 +262,16 @@ impl Scene {
                 ),
             );
         }
+        if let Some(levelling) = packing.levelling
+            && !(levelling >= 0.0 && levelling.is_finite())
+        {
+            return fault(
+                &at("levelling"),
+                format!(
+                    "packing.levelling is {levelling}; it must be 0 (none) or positive, such as 10"
+                ),
+            );
+        }
         packing.residual_tolerance.map_or(Ok(()), |tolerance| {
             positive(
                 &at("residual_tolerance"),

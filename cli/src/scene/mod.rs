@@ -214,12 +214,16 @@ pub struct PackingSpec {
     /// The minimiser; `None` is the method's own: "lbfgs" for balanced, none for hybrid, which damps.
     #[serde(with = "named::minimiser", skip_serializing_if = "Option::is_none")]
     pub minimiser: Option<MinimiserKind>,
-    /// Methods that minimise stop where the largest force times h falls below this; `None` is 10⁻³ for an even finish
-    /// (3·10⁻⁴ with corrected masses), 10⁻⁵ for a consistent one.
+    /// Methods that minimise stop where the largest force times h falls below this; `None` is 10⁻³ for an even finish,
+    /// 10⁻⁵ for a consistent one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub residual_tolerance: Option<f64>,
     /// The finish of methods that minimise.
     pub finish: Finish,
+    /// How strongly an even finish levels the density, κ of p = p_b (1 + κ (Γ − Γ₀)); `None` is 10, with corrected
+    /// masses 200. A consistent finish does not level.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub levelling: Option<f64>,
     /// Which particles settle, with the method balanced.
     pub band: BandWidth,
     /// What particles weigh.
@@ -232,24 +236,28 @@ pub struct PackingSpec {
     pub seed: u64,
 }
 
-/// The residual tolerance of an even finish whose masses are corrected, unless the scene says otherwise.
-const CORRECTED_TOLERANCE: f64 = 3e-4;
+/// The levelling of an even finish whose masses are corrected, unless the scene says otherwise: where masses are to
+/// even out what is left, less should be left.
+const CORRECTED_LEVELLING: f64 = 200.0;
 
 impl PackingSpec {
     /// How methods that minimise bring particles to rest.
     pub fn settling(&self) -> Settling {
+        let defaults = Settling::default();
+        let levelling = match self.masses {
+            Masses::Equal => defaults.levelling,
+            Masses::Corrected => CORRECTED_LEVELLING,
+        };
         Settling {
             minimiser: self.minimiser.unwrap_or_default(),
             finish: match self.finish {
                 Finish::Even => sphpack_packing::Finish::Even,
                 Finish::Consistent => sphpack_packing::Finish::Consistent,
             },
-            // Where masses are to even out what is left, less should be left.
-            residual_tolerance: self.residual_tolerance.or((self.masses == Masses::Corrected
-                && self.finish == Finish::Even)
-                .then_some(CORRECTED_TOLERANCE)),
+            residual_tolerance: self.residual_tolerance,
+            levelling: self.levelling.unwrap_or(levelling),
             max_evaluations: self.max_iterations,
-            ..Settling::default()
+            ..defaults
         }
     }
 }
@@ -267,6 +275,7 @@ impl Default for PackingSpec {
             minimiser: None,
             residual_tolerance: None,
             finish: Finish::default(),
+            levelling: None,
             band: BandWidth::default(),
             masses: Masses::default(),
             mass_spread: 0.02,

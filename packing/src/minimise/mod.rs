@@ -26,6 +26,7 @@ mod fire;
 mod landscape;
 mod lbfgs;
 mod settling;
+mod sides;
 #[cfg(test)]
 mod tests;
 mod vectors;
@@ -77,6 +78,15 @@ impl MinimiserKind {
             Self::Damped => "damped",
             Self::Fire => "fire",
             Self::Lbfgs => "lbfgs",
+        }
+    }
+
+    /// Evaluations for which L-BFGS needs one, about, from a rough start.
+    pub fn pace(self) -> usize {
+        match self {
+            Self::Damped => 5,
+            Self::Fire => 2,
+            Self::Lbfgs => 1,
         }
     }
 
