@@ -3,6 +3,7 @@
 mod balanced;
 mod balanced_rows;
 mod ci;
+mod dial;
 mod reproduce;
 mod rows;
 mod tidy;
