@@ -35,6 +35,7 @@ mod dimension;
 mod error;
 pub mod files;
 mod labels;
+mod methods;
 pub mod picture;
 mod plan;
 mod report;

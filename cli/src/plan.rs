@@ -192,8 +192,8 @@ where
         domain,
         spacing: scene.spacing,
         bodies,
-        kernel: scene.packing.kernel,
-        h_over_spacing: scene.packing.h_over_spacing,
+        kernel: scene.packing.kernel(),
+        h_over_spacing: scene.packing.h_over_spacing(),
         seed: scene.packing.seed,
         lattice: scene.packing.lattice,
         frozen: match scene.packing.frozen {
@@ -221,6 +221,8 @@ where
     resolved.domain.periodic = Some(domain.periodic.to_vec());
     resolved.packing.lattice = Some(problem.chosen_lattice());
     let settling = scene.packing.settling();
+    resolved.packing.kernel = Some(problem.kernel);
+    resolved.packing.h_over_spacing = Some(problem.h_over_spacing);
     resolved.packing.residual_tolerance = Some(settling.tolerance());
     let (kernel, h_over_spacing) = scene.judge();
     resolved.quality.kernel = Some(kernel);

@@ -142,7 +142,7 @@ proptest! {
     fn cohesion_is_the_slope_of_its_potential(support in 1e-3..1e3_f64, at in 0.01..1.2_f64) {
         let (c, potential) = (Cohesion::<3>::new(support), CohesionPotential::<3>::new(support));
         let r = at * support;
-        let scale = 32.0 / PI / support.powi(3);
+        let scale = 32.0 / std::f64::consts::PI / support.powi(3);
         prop_assert!((support * potential.slope(r) - c.value(r)).abs() < 1e-13 * scale);
         let step = 1e-5 * support;
         let difference = (potential.value(r + step) - potential.value(r - step)) / (2.0 * step);

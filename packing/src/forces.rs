@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use fearless_simd::Level;
 use rayon::prelude::*;
-use sphpack_kernels::KernelKind;
+use sphpack_kernels::{CohesionPotential, KernelKind, WithKernel};
 use sphpack_neighbors::{CellList, Domain, Slot};
 
 use crate::pair_sums::{self, GradientLoop, PairLoop, Shells, Sums};
@@ -36,10 +36,26 @@ impl Levelling {
     }
 }
 
+/// What acts between pairs.
+#[derive(Debug, Clone, Copy)]
+enum Interaction {
+    Smoothing(KernelKind),
+    Cohesion,
+}
+
+impl Interaction {
+    fn with<const D: usize, W: WithKernel<D>>(self, length: f64, work: W) -> W::Output {
+        match self {
+            Self::Smoothing(kernel) => kernel.with(length, work),
+            Self::Cohesion => work.call(CohesionPotential::<D>::new(length)),
+        }
+    }
+}
+
 /// Evaluates Γ, ∇Γ, repulsion and energy; keeps the neighbour list between calls.
 #[derive(Debug)]
 pub struct Forces<const D: usize> {
-    kernel: KernelKind,
+    interaction: Interaction,
     smoothing_length: f64,
     /// The repulsion, which may be changed between evaluations.
     pub repulsion: Repulsion,
@@ -70,8 +86,25 @@ impl<const D: usize> Forces<D> {
         repulsion: Repulsion,
     ) -> Self {
         let support = kernel.support_over_h() * smoothing_length;
+        Self::between(domain, Interaction::Smoothing(kernel), smoothing_length, support, skin, repulsion)
+    }
+
+    /// An evaluator whose "∇Γ" is the sum Σ_j V_j C_ij n̂_ij over R, with the [cohesion profile](sphpack_kernels::Cohesion)
+    /// of support radius R and n̂ from j to i.
+    pub fn of_cohesion(domain: &Domain<D>, support: f64, skin: f64) -> Self {
+        Self::between(domain, Interaction::Cohesion, support, support, skin, Repulsion::none())
+    }
+
+    fn between(
+        domain: &Domain<D>,
+        interaction: Interaction,
+        smoothing_length: f64,
+        support: f64,
+        skin: f64,
+        repulsion: Repulsion,
+    ) -> Self {
         Self {
-            kernel,
+            interaction,
             smoothing_length,
             repulsion,
             levelling: None,
@@ -119,7 +152,7 @@ impl<const D: usize> Forces<D> {
             let reach = self.reach;
             let shells = Shells { reach };
             self.list
-                .set_shells(self.kernel.with::<D, _>(self.smoothing_length, shells));
+                .set_shells(self.interaction.with::<D, _>(self.smoothing_length, shells));
         }
         if self.list.update(positions, is_target) {
             self.sums.resize(self.list.targets(), Sums::ZERO);
@@ -135,7 +168,7 @@ impl<const D: usize> Forces<D> {
             repulsion: self.repulsion,
             out: &mut self.sums,
         };
-        self.kernel.with(self.smoothing_length * unit, pairs);
+        self.interaction.with(self.smoothing_length * unit, pairs);
         if let Some(levelling) = self.levelling {
             self.level_out(levelling, volumes, unit);
         }
@@ -161,7 +194,7 @@ impl<const D: usize> Forces<D> {
             level: self.level,
             out: &mut self.excess_gradient,
         };
-        self.kernel.with(self.smoothing_length * unit, pairs);
+        self.interaction.with(self.smoothing_length * unit, pairs);
     }
 
     /// Must be called when a particle starts or stops being frozen.

@@ -126,6 +126,14 @@ pub enum PackingError {
         /// The scene's dimension.
         dimension: usize,
     },
+    /// A method for the plane was asked to pack space.
+    #[error(
+        "the method \"{method}\" works in the plane only; use \"balanced\", \"hybrid\" or \"coupled\" in 3-D"
+    )]
+    OnlyPlane {
+        /// The method's name.
+        method: &'static str,
+    },
     /// More particles than fit.
     #[error("about {particles:.3e} particles would need {:.1} GiB, more than the {:.1} GiB allowed; use a larger spacing or a smaller domain", *.needed_bytes / 1_073_741_824.0, *.allowed_bytes / 1_073_741_824.0)]
     TooLarge {

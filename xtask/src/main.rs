@@ -1,8 +1,9 @@
-//! The project's own tasks: `cargo xtask ci | tidy | reproduce-paper | balanced`.
+//! The project's own tasks: `cargo xtask ci | tidy | reproduce-paper | balanced | compare`.
 
 mod balanced;
 mod balanced_rows;
 mod ci;
+mod compare;
 mod dial;
 mod reproduce;
 mod rows;
@@ -23,6 +24,8 @@ cargo xtask TASK
                               --write also writes docs/reproduction.md
   balanced [--quick] [--only SCENE] [--data DIR] [--write]
                               the balanced method against its bars; --write also writes docs/balanced.md
+  compare [--quick] [--only SCENE] [--write]
+                              every method on every scene; --write also writes docs/methods.md
 ";
 
 fn main() -> ExitCode {
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
             reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))
         }
         Some("balanced") => reproduce::Settings::parse(rest).and_then(|s| balanced::run(&s)),
+        Some("compare") => reproduce::Settings::parse(rest).and_then(|s| compare::run(&s)),
         Some("help" | "--help" | "-h") => {
             print!("{USAGE}");
             Ok(())

@@ -236,17 +236,22 @@ impl Scene {
                 ),
             );
         }
-        let damps = packing.method == Method::Hybrid && packing.minimiser.is_none();
-        if damps && packing.finish == Finish::Consistent {
+        let is_hybrid = packing.method == Method::Hybrid;
+        let minimises = info.minimises || (is_hybrid && packing.minimiser.is_some());
+        if !minimises && packing.finish == Finish::Consistent {
             return fault(
                 &at("finish"),
-                "finish = \"consistent\" is for methods that minimise; the method \"hybrid\" damps and keeps its repulsion: use finish = \"even\", or add minimiser = \"lbfgs\"",
+                format!(
+                    "finish = \"consistent\" is for methods that minimise; the method \"{}\" does not: use finish = \"even\"{}",
+                    packing.method.name(),
+                    if is_hybrid { ", or add minimiser = \"lbfgs\"" } else { ", or method = \"balanced\"" }
+                ),
             );
         }
         ratio(
             &at("h_over_spacing"),
             "packing.h_over_spacing",
-            packing.h_over_spacing,
+            packing.h_over_spacing(),
         )?;
         positive(
             &at("velocity_tolerance"),

@@ -199,11 +199,12 @@ pub enum Frozen {
 pub struct PackingSpec {
     /// The method.
     pub method: Method,
-    /// The kernel that packs.
-    #[serde(with = "named::kernel")]
-    pub kernel: KernelKind,
-    /// Its smoothing length over ∆s.
-    pub h_over_spacing: f64,
+    /// The kernel that packs; `None` is the method's own ([`Method::kernel`]).
+    #[serde(with = "named::optional_kernel", skip_serializing_if = "Option::is_none")]
+    pub kernel: Option<KernelKind>,
+    /// Its smoothing length over ∆s; `None` is the method's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub h_over_spacing: Option<f64>,
     /// The starting lattice; `None` is "auto".
     #[serde(with = "named::lattice")]
     pub lattice: Option<Lattice>,
@@ -241,6 +242,16 @@ pub struct PackingSpec {
 const CORRECTED_LEVELLING: f64 = 200.0;
 
 impl PackingSpec {
+    /// The kernel that packs.
+    pub fn kernel(&self) -> KernelKind {
+        self.kernel.unwrap_or(self.method.kernel().0)
+    }
+
+    /// Its smoothing length over ∆s.
+    pub fn h_over_spacing(&self) -> f64 {
+        self.h_over_spacing.unwrap_or(self.method.kernel().1)
+    }
+
     /// How methods that minimise bring particles to rest.
     pub fn settling(&self) -> Settling {
         let defaults = Settling::default();
@@ -267,8 +278,8 @@ impl Default for PackingSpec {
         let hybrid = Hybrid::default();
         Self {
             method: Method::default(),
-            kernel: KernelKind::Quintic,
-            h_over_spacing: 1.2,
+            kernel: None,
+            h_over_spacing: None,
             lattice: None,
             frozen: Frozen::default(),
             velocity_tolerance: hybrid.velocity_tolerance,
@@ -359,10 +370,10 @@ impl Scene {
     /// The kernel and h/∆s that judge the result.
     pub fn judge(&self) -> (KernelKind, f64) {
         (
-            self.quality.kernel.unwrap_or(self.packing.kernel),
+            self.quality.kernel.unwrap_or(self.packing.kernel()),
             self.quality
                 .h_over_spacing
-                .unwrap_or(self.packing.h_over_spacing),
+                .unwrap_or(self.packing.h_over_spacing()),
         )
     }
 
