@@ -43,6 +43,7 @@ mod level_inset;
 mod mesh;
 mod outline;
 mod placed;
+mod read;
 mod sample;
 mod sampling;
 mod segment;
@@ -60,6 +61,7 @@ pub use outline::{
     CORNER_DEGREES, MITRE_LIMIT, Outline, angle_sum, crossing_number, winding_number,
 };
 pub use placed::Placed;
+pub use read::{BodyFormat, FLATTENING_OVER_SIZE, Solid};
 pub use sample::sample_weighted;
 pub use sampling::SAGITTA_OVER_SIZE;
 pub use shapes::{Ball, Cuboid, Cylinder, Ellipsoid, Torus};

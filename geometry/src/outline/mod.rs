@@ -3,7 +3,6 @@
 mod check;
 mod inside;
 mod offset;
-mod read;
 mod shapes;
 mod surface;
 #[cfg(test)]
