@@ -7,6 +7,7 @@ use sphpack_packing::{
 use sphpack_separation::{Labels, Side};
 
 use crate::Error;
+use crate::body_file::ReadBody;
 use crate::dimension::{Dimension, Space};
 use crate::labels::{Sorted, sort};
 use crate::plan::{Prepared, available_bytes, dimension, judged, prepare};
@@ -58,6 +59,8 @@ pub struct Outcome {
     pub table: Table,
     /// In 2-D, the true bodies as closed loops.
     pub loops: Vec<Vec<[f64; 2]>>,
+    /// What the bodies' files hold.
+    pub read: Vec<ReadBody>,
     /// The figures, dimension forgotten.
     pub report: Report,
 }
@@ -92,6 +95,7 @@ where
         problem,
         resolved,
         loops,
+        read,
         seconds: built,
     } = prepared;
     let mut packed = pack(&problem, scene, observer)?;
@@ -118,6 +122,7 @@ where
         packing: wrap(solution),
         table,
         loops,
+        read,
         report,
     })
 }
