@@ -67,7 +67,7 @@ impl BodyFormat {
         if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") || text.starts_with(b"ply ") {
             return Ok(Self::Ply);
         }
-        if text.starts_with(b"<") && is_svg(text) {
+        if text.starts_with(b"<") && (named == Some(Self::Svg) || is_svg(text)) {
             return Ok(Self::Svg);
         }
         if stl::is_text(head) {

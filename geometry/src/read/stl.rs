@@ -23,7 +23,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
     if let Some(count) = binary_count(bytes, bytes.len() as u64) {
         return Ok(vec![read_binary(bytes, count)?]);
     }
-    if is_text(bytes) {
+    // A binary file that was cut off may have a title that begins with "solid", but soon has zeros too.
+    if is_text(bytes) && !bytes[..bytes.len().min(1024)].contains(&0) {
         return stl_text::read(bytes);
     }
     Err(wrong_size(bytes))

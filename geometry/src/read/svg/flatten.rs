@@ -14,7 +14,7 @@ pub const FLATTENING_OVER_SIZE: f64 = 1e-6;
 const CLOSED_OVER_SIZE: f64 = 1e-6;
 
 /// Points that any drawing may have, and those for each of its bytes: a few of them cannot ask for much memory.
-const MOST_POINTS: (usize, usize) = (200_000, 16);
+const MOST_POINTS: (usize, usize) = (1_000_000, 4);
 
 /// The closed loops of all paths, for a file of `size` bytes.
 pub(super) fn loops(shapes: &[Drawn], size: usize) -> Result<Vec<Vec<[f64; 2]>>, GeometryError> {

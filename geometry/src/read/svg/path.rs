@@ -5,7 +5,7 @@ use kurbo::{Arc, BezPath, PathEl, Point, SvgArc, Vec2};
 use super::scan::Scan;
 
 /// How far the cubic pieces of an arc may be from it, in parts of its larger radius.
-const ARC_OVER_RADIUS: f64 = 1e-8;
+const ARC_OVER_RADIUS: f64 = 1e-7;
 
 /// A short arc whose radius is larger than this, over the distance of its ends, is a straight line for every purpose.
 const FLAT: f64 = 1e6;

@@ -27,6 +27,7 @@ fn content_decides() {
     detected(b"ply\r\nformat ascii 1.0\n", "stl", Ok(Ply));
     detected(b"<?xml version='1.0'?>\n<!-- a -->\n<svg>", "txt", Ok(Svg));
     detected(b"<a:svg width='1'/>", "", Ok(Svg));
+    detected(b"<!-- a long preamble", "svg", Ok(Svg));
     detected(b"0 0\n1 0\n", "dat", Ok(Airfoil));
     detected(b"0 0\n1 0\n", "DAT", Ok(Airfoil));
     detected(b"NACA 0012\n 61. 61.\n\n0 0\n", "txt", Ok(Airfoil));

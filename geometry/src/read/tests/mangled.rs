@@ -19,7 +19,7 @@ fn survive(format: BodyFormat, bytes: &[u8]) {
         }
         if let Ok(loops) = format.loops(bytes) {
             let count: usize = loops.iter().map(Vec::len).sum();
-            assert!(count <= 210_000 + 16 * bytes.len());
+            assert!(count <= 1_010_000 + 4 * bytes.len());
         }
         let _ = contents(format, bytes);
     }

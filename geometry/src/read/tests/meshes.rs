@@ -204,6 +204,12 @@ fn bad_stl_files_say_where() {
         file(BodyFormat::Obj, "cube.obj"),
         &["no STL file"],
     );
+    let called_solid = file(BodyFormat::Stl, "binary_called_solid.stl");
+    refused(
+        BodyFormat::Stl,
+        &called_solid[..200],
+        &["4 triangles", "cut off"],
+    );
     refused(
         BodyFormat::Csv,
         file(BodyFormat::Stl, "binary.stl"),
