@@ -23,6 +23,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Run>, GeometryError> {
     let mut rows: Vec<Row> = Vec::new();
     let mut announced: Option<(usize, usize)> = None;
     let mut is_first = true;
+    let mut has_name = false;
     let mut follows_blank = false;
     for (at, line) in Lines::of(bytes) {
         let content = content(line);
@@ -40,7 +41,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Run>, GeometryError> {
             Err(_) if rows.is_empty() && announced.is_none() && count(content).is_some() => {
                 announced = count(content).map(|count| (count, at));
             }
-            Err(_) if is_first => {}
+            Err(_) if is_first => has_name = true,
             Err(reason) => return Err(row(at, reason)),
         }
         is_first = false;
@@ -57,7 +58,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Run>, GeometryError> {
             ),
         ));
     }
-    if let Some((upper, lower)) = surfaces(&rows)? {
+    if let Some((upper, lower)) = surfaces(&rows, has_name)? {
         return Ok(vec![joined(upper, lower)]);
     }
     let mut runs: Vec<Run> = vec![Vec::new()];
@@ -89,8 +90,9 @@ fn count(content: &[u8]) -> Option<usize> {
         .then_some(number as usize)
 }
 
-/// The two surfaces, where the first row announces how many points each has.
-fn surfaces(rows: &[Row]) -> Result<Option<(Run, Run)>, GeometryError> {
+/// The two surfaces, where the first row announces how many points each has: it stands below a name or alone, as other
+/// points might add up too.
+fn surfaces(rows: &[Row], has_name: bool) -> Result<Option<(Run, Run)>, GeometryError> {
     let Some((first, points)) = rows.split_first() else {
         return Ok(None);
     };
@@ -98,7 +100,7 @@ fn surfaces(rows: &[Row]) -> Result<Option<(Run, Run)>, GeometryError> {
     let is_count = |x: f64| (2.0..1e9).contains(&x) && x.fract() == 0.0;
     let fits = upper + lower == points.len() as f64;
     let stands_alone = points.first().is_some_and(|row| row.follows_blank);
-    if !(is_count(upper) && is_count(lower) && (fits || stands_alone)) {
+    if !(is_count(upper) && is_count(lower) && (fits && has_name || stands_alone)) {
         return Ok(None);
     }
     if !fits {

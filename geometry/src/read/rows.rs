@@ -57,7 +57,7 @@ pub(super) fn pair(content: &[u8]) -> Result<[f64; 2], String> {
     let mut fields = fields(content);
     let (Some(x), Some(y), None) = (fields.next(), fields.next(), fields.next()) else {
         return Err(format!(
-            "\"{}\" has {} fields; a row is two numbers, \"x,y\"",
+            "\"{}\" has {} fields; a row is two numbers with decimal points, \"x,y\"",
             shown(content),
             self::fields(content).count()
         ));

@@ -68,6 +68,10 @@ fn airfoils_close_where_they_are_open_and_drop_repeats() {
     let closed = "sharp\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n1 0\n";
     let outline = Outline::from_bytes(BodyFormat::Airfoil, closed.as_bytes()).unwrap();
     assert_eq!(outline.points().len(), 4);
+    // Points that could be numbers of points are none without a name.
+    let numbers = "2 3\n0 0\n9 0\n9 9\n0 9\n1 8\n";
+    let outline = Outline::from_bytes(BodyFormat::Airfoil, numbers.as_bytes()).unwrap();
+    assert_eq!(outline.points().len(), 6);
     // Two elements that a blank line parts.
     let two = "0 0\n1 0\n0 1\n0 0\n\n5 0\n5 1\n6 0\n5 0\n";
     let outline = Outline::from_bytes(BodyFormat::Airfoil, two.as_bytes()).unwrap();
