@@ -5,10 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sphpack_geometry::{
-    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed, Similarity, Surface,
-    Torus,
+    Ball, BodyFormat, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed,
+    Similarity, Surface, Torus,
 };
 
+use crate::body_file;
 use crate::scene::{BodySpec, Shape};
 
 /// A body's surface, and its outline for pictures.
@@ -17,6 +18,8 @@ pub(crate) struct Built<const D: usize> {
     pub(crate) surface: Arc<dyn Surface<D>>,
     /// In 2-D, the closed loops to draw.
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
+    /// Where it comes from a file, the format and the number of triangles or points.
+    pub(crate) read: Option<(BodyFormat, usize)>,
 }
 
 /// The plane or space.
@@ -63,6 +66,7 @@ impl Dimension<2> for Space<2> {
         file: Option<&Path>,
         place: &Similarity<2>,
     ) -> Result<Built<2>, GeometryError> {
+        let mut read = None;
         let outline = match shape {
             Shape::Circle { center, radius } => {
                 let ball = Ball::new(place.point(array(center)), radius * place.scale())?;
@@ -75,6 +79,7 @@ impl Dimension<2> for Space<2> {
                             middle[1] + radius * angle.sin(),
                         ]
                     })],
+                    read: None,
                 });
             }
             Shape::Ellipse { center, semi_axes } => {
@@ -84,6 +89,7 @@ impl Dimension<2> for Space<2> {
                     loops: vec![ring(|angle| {
                         place.point([c[0] + a[0] * angle.cos(), c[1] + a[1] * angle.sin()])
                     })],
+                    read: None,
                 });
             }
             Shape::Box { min, max } => {
@@ -95,6 +101,7 @@ impl Dimension<2> for Space<2> {
                             .map(|corner| place.point(corner))
                             .to_vec(),
                     ],
+                    read: None,
                 });
             }
             Shape::Polygon { points } => {
@@ -113,13 +120,18 @@ impl Dimension<2> for Space<2> {
                 teeth,
             } => Outline::zigzag(*width, *height, *amplitude, *teeth)?,
             Shape::Naca { digits, chord } => Outline::naca(digits, *chord)?,
-            Shape::File(path) => Outline::from_csv(file.unwrap_or(path))?,
+            Shape::File(path) => {
+                let (format, outline) = body_file::read(file.unwrap_or(path), Outline::from_bytes)?;
+                read = Some((format, outline.points().len()));
+                outline
+            }
             _ => return Err(wrong_dimension(shape, 2)),
         };
         let outline = outline.transformed(place);
         Ok(Built {
             loops: outline.loops().map(<[_]>::to_vec).collect(),
             surface: Arc::new(outline),
+            read,
         })
     }
 }
@@ -138,6 +150,7 @@ impl Dimension<3> for Space<3> {
         file: Option<&Path>,
         place: &Similarity<3>,
     ) -> Result<Built<3>, GeometryError> {
+        let mut read = None;
         let surface: Arc<dyn Surface<3>> = match shape {
             Shape::Sphere { center, radius } => Arc::new(Ball::new(
                 place.point(array(center)),
@@ -169,17 +182,16 @@ impl Dimension<3> for Space<3> {
             )?),
             Shape::File(path) => {
                 let path = file.unwrap_or(path);
-                Arc::new(
-                    Mesh::read_stl(path)?
-                        .transformed(place)
-                        .map_err(|e| e.in_file(path))?,
-                )
+                let (format, mesh) = body_file::read(path, Mesh::from_bytes)?;
+                read = Some((format, mesh.triangles().len()));
+                Arc::new(mesh.transformed(place).map_err(|e| e.in_file(path))?)
             }
             _ => return Err(wrong_dimension(shape, 3)),
         };
         Ok(Built {
             surface,
             loops: Vec::new(),
+            read,
         })
     }
 }

@@ -44,7 +44,7 @@ pub mod scene;
 mod seen;
 mod table;
 
-pub use body_file::BodyFile;
+pub use body_file::{ReadBody, body_format};
 pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};
 pub use plan::{Plan, plan};

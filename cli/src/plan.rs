@@ -6,16 +6,18 @@ use sphpack_neighbors::{Bounds, Domain};
 use sphpack_packing::{Body, Estimate, FrozenLayout, PackingError, Problem};
 
 use crate::Error;
-use crate::body_file::BodyFile;
+use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Dimension, Space};
 use crate::report::kibibytes;
 use crate::scene::{Fault, Frozen, Scene};
 
 /// What a scene will need.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// 2 or 3.
     pub dimension: usize,
+    /// What the bodies' files hold.
+    pub read: Vec<ReadBody>,
     /// Particles, memory and time.
     pub estimate: Estimate,
     /// The memory that may be used, bytes.
@@ -29,6 +31,8 @@ pub(crate) struct Prepared<const D: usize> {
     pub(crate) resolved: Scene,
     /// In 2-D, the bodies' closed loops.
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
+    /// What the bodies' files hold.
+    pub(crate) read: Vec<ReadBody>,
     /// Seconds spent on building the bodies.
     pub(crate) seconds: f64,
 }
@@ -45,12 +49,20 @@ const MAX_PARTICLES: f64 = 4e9;
 /// Those of [`crate::run`].
 pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
     let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
-    let estimate = match dimension(scene)? {
-        2 => prepare::<2>(scene, allowed_bytes)?.1,
-        _ => prepare::<3>(scene, allowed_bytes)?.1,
+    let dimension = dimension(scene)?;
+    let (read, estimate) = match dimension {
+        2 => {
+            let (prepared, estimate) = prepare::<2>(scene, allowed_bytes)?;
+            (prepared.read, estimate)
+        }
+        _ => {
+            let (prepared, estimate) = prepare::<3>(scene, allowed_bytes)?;
+            (prepared.read, estimate)
+        }
     };
     Ok(Plan {
-        dimension: dimension(scene)?,
+        dimension,
+        read,
         estimate,
         allowed_bytes,
     })
@@ -80,13 +92,10 @@ pub(crate) fn dimension(scene: &Scene) -> Result<usize, Error> {
         let (dimension, what) = match body.shape.file() {
             Some(file) => {
                 let path = scene.resolve(file);
-                let kind =
-                    BodyFile::detect(&path).map_err(|error| of_body(error, scene, &body.name))?;
-                let what = match kind {
-                    BodyFile::Stl => "a mesh",
-                    BodyFile::Csv => "an outline",
-                };
-                (kind.dimension(), format!("{}, {what}", path.display()))
+                let format =
+                    body_format(&path).map_err(|error| of_body(error, scene, &body.name))?;
+                let what = format.description();
+                (format.dimension(), format!("{}, {what}", path.display()))
             }
             None => (
                 body.shape.dimension().unwrap_or(3),
@@ -163,6 +172,7 @@ where
     let begin = Instant::now();
     let mut bodies = Vec::new();
     let mut loops = Vec::new();
+    let mut read = Vec::new();
     for body in &scene.body {
         let file = body.shape.file().map(|file| scene.resolve(file));
         let built = Space::<D>::place(body)
@@ -181,6 +191,12 @@ where
                 },
             })?;
         loops.extend(built.loops);
+        read.extend(built.read.map(|(format, count)| ReadBody {
+            name: body.name.clone(),
+            format,
+            count,
+            size: built.surface.bounds().size().to_vec(),
+        }));
         bodies.push(Body {
             name: body.name.clone(),
             surface: built.surface,
@@ -232,6 +248,7 @@ where
             problem,
             resolved,
             loops,
+            read,
             seconds: begin.elapsed().as_secs_f64(),
         },
         estimate,

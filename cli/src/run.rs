@@ -5,6 +5,7 @@ use sphpack_packing::{Fields, Kind, Observer, Packed, Problem, Quality, StopReas
 use sphpack_separation::{Labels, Side};
 
 use crate::Error;
+use crate::body_file::ReadBody;
 use crate::dimension::{Dimension, Space};
 use crate::labels::{Sorted, sort};
 use crate::methods::pack;
@@ -57,6 +58,8 @@ pub struct Outcome {
     pub table: Table,
     /// In 2-D, the true bodies as closed loops.
     pub loops: Vec<Vec<[f64; 2]>>,
+    /// What the bodies' files hold.
+    pub read: Vec<ReadBody>,
     /// The figures, dimension forgotten.
     pub report: Report,
 }
@@ -91,6 +94,7 @@ where
         problem,
         resolved,
         loops,
+        read,
         seconds: built,
     } = prepared;
     let mut packed = pack(&problem, scene, observer)?;
@@ -117,6 +121,7 @@ where
         packing: wrap(solution),
         table,
         loops,
+        read,
         report,
     })
 }

@@ -20,7 +20,8 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # shape = { polygon = { points = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]] } }
 # shape = { naca = { digits = "0015", chord = 1.0 } }
 # shape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }
-# shape = { file = "body.stl" }  # a closed mesh (.stl, 3-D) or an outline (.csv: rows of x,y); relative to this file
+# shape = { file = "body.stl" }  # a closed mesh (.stl, .obj, .ply: 3-D) or an outline (.csv: rows of x,y, .dat: an
+                                 # airfoil, .svg: a drawing's closed paths: 2-D); relative to this file
 # scale = 1.0                    # the body is scaled, then turned, then moved, about the origin
 # rotate_degrees = 0.0           # 2-D, counter-clockwise
 # rotate = { axis = [0.0, 0.0, 1.0], degrees = 0.0 }   # 3-D
