@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 
 use crate::{
-    Cohesion, CohesionPotential, Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4, WendlandC6, WithKernel,
+    Cohesion, CohesionPotential, Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4,
+    WendlandC6, WithKernel,
 };
 
 /// Surface of the unit sphere in D dimensions.

@@ -86,13 +86,27 @@ impl<const D: usize> Forces<D> {
         repulsion: Repulsion,
     ) -> Self {
         let support = kernel.support_over_h() * smoothing_length;
-        Self::between(domain, Interaction::Smoothing(kernel), smoothing_length, support, skin, repulsion)
+        Self::between(
+            domain,
+            Interaction::Smoothing(kernel),
+            smoothing_length,
+            support,
+            skin,
+            repulsion,
+        )
     }
 
     /// An evaluator whose "∇Γ" is the sum Σ_j V_j C_ij n̂_ij over R, with the [cohesion profile](sphpack_kernels::Cohesion)
     /// of support radius R and n̂ from j to i.
     pub fn of_cohesion(domain: &Domain<D>, support: f64, skin: f64) -> Self {
-        Self::between(domain, Interaction::Cohesion, support, support, skin, Repulsion::none())
+        Self::between(
+            domain,
+            Interaction::Cohesion,
+            support,
+            support,
+            skin,
+            Repulsion::none(),
+        )
     }
 
     fn between(
@@ -185,8 +199,7 @@ impl<const D: usize> Forces<D> {
             self.excess[i as usize] = volumes[i as usize] * (sums.gamma - levelling.target);
         }
         self.list.weigh(&self.excess, &mut self.slots);
-        self.excess_gradient
-            .resize(self.list.targets(), [0.0; D]);
+        self.excess_gradient.resize(self.list.targets(), [0.0; D]);
         let pairs = GradientLoop {
             list: &self.list,
             slots: &self.slots,

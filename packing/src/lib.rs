@@ -47,6 +47,8 @@ mod standard;
 mod watch;
 
 #[cfg(test)]
+mod published;
+#[cfg(test)]
 mod tests;
 
 pub use agitated::Agitated;

@@ -48,8 +48,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             scene.quality.kernel = Some(KernelKind::Quintic);
             scene.quality.h_over_spacing = Some(1.2);
             let start = Instant::now();
-            let outcome =
-                pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
+            let outcome = pack(&scene, &Options::default(), &mut Silent)
+                .map_err(|error| error.to_string())?;
             let line = line(
                 name,
                 info.name,
@@ -67,7 +67,11 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
              Each method with its defaults, its own kernel and h/∆s among them; all judged by the quintic kernel at\n\
              h/∆s = 1.2{}. Regenerate with `cargo xtask compare --write`. Times are wall-clock seconds and depend on\n\
              the machine.\n\n{table}",
-            if settings.quick { " (the quick scenes only)" } else { "" }
+            if settings.quick {
+                " (the quick scenes only)"
+            } else {
+                ""
+            }
         );
         fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
     }
@@ -79,7 +83,10 @@ fn line(scene: &str, method: &str, report: &Report, seconds: f64) -> String {
         .bodies
         .iter()
         .map(|body| body.volume / body.volume_true - 1.0)
-        .fold(0.0, |most: f64, off| if off.abs() > most.abs() { off } else { most });
+        .fold(
+            0.0,
+            |most: f64, off| if off.abs() > most.abs() { off } else { most },
+        );
     let sum = |f: fn(&sphpack::SurfaceReport) -> usize| report.surface.iter().map(f).sum::<usize>();
     let mut line = String::new();
     // Writing to a string cannot fail.

@@ -38,8 +38,8 @@ pub(crate) fn table(settings: &Settings) -> Result<String, String> {
             scene.spacing = spacing;
             scene.packing.levelling = Some(stiffness);
             scene.packing.max_iterations = 2000;
-            let outcome =
-                pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
+            let outcome = pack(&scene, &Options::default(), &mut Silent)
+                .map_err(|error| error.to_string())?;
             let report = &outcome.report;
             let mut line = String::new();
             // Writing to a string cannot fail.

@@ -244,7 +244,11 @@ impl Scene {
                 format!(
                     "finish = \"consistent\" is for methods that minimise; the method \"{}\" does not: use finish = \"even\"{}",
                     packing.method.name(),
-                    if is_hybrid { ", or add minimiser = \"lbfgs\"" } else { ", or method = \"balanced\"" }
+                    if is_hybrid {
+                        ", or add minimiser = \"lbfgs\""
+                    } else {
+                        ", or method = \"balanced\""
+                    }
                 ),
             );
         }

@@ -200,7 +200,10 @@ pub struct PackingSpec {
     /// The method.
     pub method: Method,
     /// The kernel that packs; `None` is the method's own ([`Method::kernel`]).
-    #[serde(with = "named::optional_kernel", skip_serializing_if = "Option::is_none")]
+    #[serde(
+        with = "named::optional_kernel",
+        skip_serializing_if = "Option::is_none"
+    )]
     pub kernel: Option<KernelKind>,
     /// Its smoothing length over ∆s; `None` is the method's own.
     #[serde(skip_serializing_if = "Option::is_none")]

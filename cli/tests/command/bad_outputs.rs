@@ -94,7 +94,7 @@ fn command_lines_are_checked() {
             "from 1 to 1024",
         ),
         (
-            &["pack", "scene.toml", "--method", "standard"],
+            &["pack", "scene.toml", "--method", "relaxation"],
             "not in this version",
         ),
     ] {

@@ -241,8 +241,7 @@ fn no_particle_slips_through_a_surface_that_is_watched() {
         }
         let before = particles.position.clone();
         let forces = Forces::of(&problem, Repulsion::new(problem.spacing, 0.001));
-        let mut landscape =
-            Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 1.0);
+        let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 1.0);
         if is_watched {
             landscape.keep_sides();
         }

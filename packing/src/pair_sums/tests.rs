@@ -190,7 +190,10 @@ fn check_with<const D: usize>(
             let ours = out[slot];
             for k in 0..D {
                 let off = (gradients[slot][k] - of_targets[i].gradient[k]).abs();
-                prop_assert!(off <= 1e-13 * expected.gamma / h, "second pass, {level:?}: {off}");
+                prop_assert!(
+                    off <= 1e-13 * expected.gamma / h,
+                    "second pass, {level:?}: {off}"
+                );
             }
             let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-13 * scale;
             let says = format!("{level:?}, {kind}, particle {i}: {ours:?}, not {expected:?}");
