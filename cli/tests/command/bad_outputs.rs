@@ -13,8 +13,8 @@ fn endings_must_be_known() {
         all.extend(arguments);
         desk().refuse(&all, parts);
     };
-    refuse(&["-o", "out.xyz"], &["out.xyz", "vtu, csv"]);
-    refuse(&["-o", "out.vtk"], &["did you mean \"vtu\"?"]);
+    refuse(&["-o", "out.xyz"], &["out.xyz", "vtu, csv, npz, vtp, vtk, ply"]);
+    refuse(&["-o", "out.vtx"], &["did you mean \"vtu\"?"]);
     refuse(&["-o", "out"], &["out", "vtu, csv"]);
     refuse(&["--picture", "out.jpg"], &["out.jpg", "png, svg"]);
     refuse(&["--report", "out.txt"], &["out.txt", ".json"]);

@@ -7,6 +7,7 @@ mod body_formats;
 mod good_runs;
 mod interrupts;
 mod measuring;
+mod particle_files;
 
 use std::fs;
 use std::path::Path;
