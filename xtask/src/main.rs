@@ -5,6 +5,7 @@ mod balanced_rows;
 mod ci;
 mod compare;
 mod dial;
+mod figures;
 mod fuzz;
 #[path = "../../geometry/src/read/mangle.rs"]
 mod mangle;

@@ -224,7 +224,7 @@ fn no_particle_slips_through_a_surface_that_is_watched() {
     let surface = Cuboid::new([0.25; 2], [0.75; 2]).expect("a box");
     let problem = Problem::new(Domain::new([0.0; 2], [1.0; 2]), 0.05);
     let surfaces = vec![ParticleSurface {
-        surface: Arc::new(surface.clone()),
+        surface: Arc::new(surface),
         target_count: 0,
     }];
     let slipped = |is_watched: bool| {

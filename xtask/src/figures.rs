@@ -1,0 +1,119 @@
+//! What papers 001 and 002 print of their methods, beside ours.
+
+use std::fmt::Write as _;
+
+use sphpack::scene::Method;
+use sphpack::{Options, Outcome, Packing, run as pack};
+use sphpack_kernels::KernelKind;
+use sphpack_packing::{Kind, Silent};
+
+use crate::reproduce::{Settings, load};
+
+const VARIATION: &str = "\
+| scene | ∆s | method | total variation, paper 001 | ours, all particles | ours, to ∆s inside |
+|---|---|---|---|---|---|
+";
+
+/// Scene, ∆s, method, what 001 §4 prints in per cent.
+const PRINTED: [(&str, f64, Method, f64); 6] = [
+    ("cylinder", 0.1, Method::Standard, 8.0),
+    ("cylinder", 0.1, Method::Coupled, 16.0),
+    ("cylinder", 0.1, Method::Hybrid, 2.0),
+    ("zigzag", 0.05, Method::Standard, 10.0),
+    ("zigzag", 0.05, Method::Coupled, 30.0),
+    ("zigzag", 0.05, Method::Hybrid, 3.0),
+];
+
+/// Total variations of 001's three methods.
+pub(crate) fn variation(settings: &Settings) -> Result<String, String> {
+    let mut table = VARIATION.to_owned();
+    print!("\n{VARIATION}");
+    for (name, spacing, method, printed) in PRINTED {
+        if !settings.wants(name, name == "cylinder") {
+            continue;
+        }
+        let Some(mut scene) = load(name, settings)? else {
+            continue;
+        };
+        scene.spacing = spacing;
+        scene.packing.method = method;
+        scene.quality.kernel = Some(KernelKind::Quintic);
+        scene.quality.h_over_spacing = Some(1.0);
+        let outcome =
+            pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
+        let mut line = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            line,
+            "| {name} | {spacing} | {} | {printed} % | {:.2} % | {:.2} % |",
+            method.name(),
+            100.0 * outcome.report.density.total_variation,
+            100.0 * near_variation(&outcome),
+        );
+        print!("{line}");
+        table.push_str(&line);
+    }
+    Ok(table)
+}
+
+/// max Γ − min Γ over the particles outside the bodies or within ∆s of their surfaces.
+fn near_variation(outcome: &Outcome) -> f64 {
+    let Packing::Plane(solution) = &outcome.packing else {
+        return f64::NAN;
+    };
+    let packed = &solution.packed;
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for i in 0..packed.particles.len() {
+        let p = packed.particles.position[i];
+        let is_deep = (packed.surfaces.iter())
+            .any(|surface| surface.surface.closest(p).distance < -0.51 * packed.spacing);
+        if packed.particles.kind[i] != Kind::Frozen && !is_deep {
+            least = least.min(solution.fields.gamma[i]);
+            most = most.max(solution.fields.gamma[i]);
+        }
+    }
+    most - least
+}
+
+const TANK: &str = "\
+| tank | H/∆x | iterations (002: 2,000 to 2,500) | mean of ½u²/β below 10⁻⁸ | L∞ | residual max, mean | particles | seconds |
+|---|---|---|---|---|---|---|---|
+";
+
+/// 002's tanks at rest.
+pub(crate) fn tanks(settings: &Settings) -> Result<String, String> {
+    let mut table = TANK.to_owned();
+    print!("\n{TANK}");
+    for (name, cells) in [
+        ("trapezoid", 25.0),
+        ("trapezoid", 50.0),
+        ("trapezoid", 100.0),
+        ("bends", 50.0),
+    ] {
+        if !settings.wants(name, cells == 25.0) {
+            continue;
+        }
+        let Some(mut scene) = load(name, settings)? else {
+            continue;
+        };
+        scene.spacing = 1.0 / cells;
+        let outcome =
+            pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
+        let report = &outcome.report;
+        let mut line = String::new();
+        let _ = writeln!(
+            line,
+            "| {name} | {cells} | {} | {} | {:.2} % | {:.1e}, {:.1e} | {} | {:.1} |",
+            report.iterations,
+            report.stop_reason,
+            100.0 * report.density.linf,
+            report.residual.max,
+            report.residual.mean,
+            report.particles.fluid,
+            report.seconds.total,
+        );
+        print!("{line}");
+        table.push_str(&line);
+    }
+    Ok(table)
+}
