@@ -48,9 +48,11 @@ mod sampling;
 mod segment;
 mod shapes;
 mod similarity;
+mod soup;
 mod surface;
 mod thickness;
 mod thin;
+mod winding;
 
 pub use bvh::Bvh;
 pub use error::GeometryError;
@@ -64,6 +66,11 @@ pub use sample::sample_weighted;
 pub use sampling::SAGITTA_OVER_SIZE;
 pub use shapes::{Ball, Cuboid, Cylinder, Ellipsoid, Torus};
 pub use similarity::Similarity;
+pub use soup::{
+    Defect, DefectKind, Hole, HoleLimit, Mended, MeshReport, Repair, Repaired, Shell, ShellRole,
+    Soup,
+};
 pub use surface::{Closest, Feature, Features, Surface};
 pub use thickness::thickness;
 pub use thin::{SurfaceSamples, sample_particles};
+pub use winding::FastWinding;

@@ -7,10 +7,10 @@ mod read;
 mod strew;
 mod surface;
 #[cfg(test)]
-mod tests;
-mod topology;
-mod triangle;
-mod weld;
+pub(crate) mod tests;
+pub(crate) mod topology;
+pub(crate) mod triangle;
+pub(crate) mod weld;
 
 use std::sync::OnceLock;
 
