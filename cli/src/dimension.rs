@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sphpack_geometry::{
-    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed, Similarity, Surface,
+    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, Outline, Placed, Similarity, Soup, Surface,
     Torus,
 };
 
@@ -17,6 +17,19 @@ pub(crate) struct Built<const D: usize> {
     pub(crate) surface: Arc<dyn Surface<D>>,
     /// In 2-D, the closed loops to draw.
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
+    /// What was mended, a sentence each.
+    pub(crate) repairs: Vec<String>,
+}
+
+impl<const D: usize> Built<D> {
+    /// A body that needed no mending.
+    fn sound(surface: Arc<dyn Surface<D>>, loops: Vec<Vec<[f64; 2]>>) -> Self {
+        Self {
+            surface,
+            loops,
+            repairs: Vec::new(),
+        }
+    }
 }
 
 /// The plane or space.
@@ -67,35 +80,35 @@ impl Dimension<2> for Space<2> {
             Shape::Circle { center, radius } => {
                 let ball = Ball::new(place.point(array(center)), radius * place.scale())?;
                 let (middle, radius) = (ball.center(), ball.radius());
-                return Ok(Built {
-                    surface: Arc::new(ball),
-                    loops: vec![ring(|angle| {
+                return Ok(Built::sound(
+                    Arc::new(ball),
+                    vec![ring(|angle| {
                         [
                             middle[0] + radius * angle.cos(),
                             middle[1] + radius * angle.sin(),
                         ]
                     })],
-                });
+                ));
             }
             Shape::Ellipse { center, semi_axes } => {
                 let (c, a): ([f64; 2], [f64; 2]) = (array(center), array(semi_axes));
-                return Ok(Built {
-                    surface: Arc::new(Placed::new(Arc::new(Ellipsoid::new(c, a)?), *place)),
-                    loops: vec![ring(|angle| {
+                return Ok(Built::sound(
+                    Arc::new(Placed::new(Arc::new(Ellipsoid::new(c, a)?), *place)),
+                    vec![ring(|angle| {
                         place.point([c[0] + a[0] * angle.cos(), c[1] + a[1] * angle.sin()])
                     })],
-                });
+                ));
             }
             Shape::Box { min, max } => {
                 let (a, b): ([f64; 2], [f64; 2]) = (array(min), array(max));
-                return Ok(Built {
-                    surface: Arc::new(Placed::new(Arc::new(Cuboid::new(a, b)?), *place)),
-                    loops: vec![
+                return Ok(Built::sound(
+                    Arc::new(Placed::new(Arc::new(Cuboid::new(a, b)?), *place)),
+                    vec![
                         [a, [b[0], a[1]], b, [a[0], b[1]]]
                             .map(|corner| place.point(corner))
                             .to_vec(),
                     ],
-                });
+                ));
             }
             Shape::Polygon { points } => {
                 Outline::polygon(&points.iter().map(|p| array(p)).collect::<Vec<_>>())?
@@ -117,10 +130,8 @@ impl Dimension<2> for Space<2> {
             _ => return Err(wrong_dimension(shape, 2)),
         };
         let outline = outline.transformed(place);
-        Ok(Built {
-            loops: outline.loops().map(<[_]>::to_vec).collect(),
-            surface: Arc::new(outline),
-        })
+        let loops = outline.loops().map(<[_]>::to_vec).collect();
+        Ok(Built::sound(Arc::new(outline), loops))
     }
 }
 
@@ -169,18 +180,19 @@ impl Dimension<3> for Space<3> {
             )?),
             Shape::File(path) => {
                 let path = file.unwrap_or(path);
-                Arc::new(
-                    Mesh::read_stl(path)?
-                        .transformed(place)
-                        .map_err(|e| e.in_file(path))?,
-                )
+                let mended = Soup::read_stl(path)?
+                    .transformed(place)
+                    .and_then(|soup| soup.body())
+                    .map_err(|e| e.in_file(path))?;
+                return Ok(Built {
+                    surface: Arc::new(mended.mesh),
+                    loops: Vec::new(),
+                    repairs: mended.done.iter().map(ToString::to_string).collect(),
+                });
             }
             _ => return Err(wrong_dimension(shape, 3)),
         };
-        Ok(Built {
-            surface,
-            loops: Vec::new(),
-        })
+        Ok(Built::sound(surface, Vec::new()))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use sphpack_geometry::GeometryError;
 use sphpack_neighbors::{Bounds, Domain};
 use sphpack_packing::{Body, Estimate, FrozenLayout, PackingError, Problem};
 
@@ -12,7 +13,7 @@ use crate::report::kibibytes;
 use crate::scene::{Fault, Frozen, Scene};
 
 /// What a scene will need.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// 2 or 3.
     pub dimension: usize,
@@ -20,6 +21,8 @@ pub struct Plan {
     pub estimate: Estimate,
     /// The memory that may be used, bytes.
     pub allowed_bytes: f64,
+    /// What was mended of each body, a sentence each.
+    pub repairs: Vec<Vec<String>>,
 }
 
 /// A scene's problem.
@@ -29,6 +32,8 @@ pub(crate) struct Prepared<const D: usize> {
     pub(crate) resolved: Scene,
     /// In 2-D, the bodies' closed loops.
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
+    /// What was mended of each body, a sentence each.
+    pub(crate) repairs: Vec<Vec<String>>,
     /// Seconds spent on building the bodies.
     pub(crate) seconds: f64,
 }
@@ -45,14 +50,16 @@ const MAX_PARTICLES: f64 = 4e9;
 /// Those of [`crate::run`].
 pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
     let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
-    let estimate = match dimension(scene)? {
-        2 => prepare::<2>(scene, allowed_bytes)?.1,
-        _ => prepare::<3>(scene, allowed_bytes)?.1,
-    };
+    let dimension = dimension(scene)?;
+    let (estimate, repairs) = match dimension {
+        2 => prepare::<2>(scene, allowed_bytes).map(|(p, estimate)| (estimate, p.repairs)),
+        _ => prepare::<3>(scene, allowed_bytes).map(|(p, estimate)| (estimate, p.repairs)),
+    }?;
     Ok(Plan {
-        dimension: dimension(scene)?,
+        dimension,
         estimate,
         allowed_bytes,
+        repairs,
     })
 }
 
@@ -163,16 +170,22 @@ where
     let begin = Instant::now();
     let mut bodies = Vec::new();
     let mut loops = Vec::new();
+    let mut repairs = Vec::new();
     for body in &scene.body {
         let file = body.shape.file().map(|file| scene.resolve(file));
         let built = Space::<D>::place(body)
             .and_then(|place| Space::<D>::build(&body.shape, file.as_deref(), &place))
             .map_err(|source| match source {
                 // The message names the file already.
-                sphpack_geometry::GeometryError::InFile { path, source } => Error::Input {
+                GeometryError::InFile { path, source } => Error::Input {
+                    message: match *source {
+                        GeometryError::Defective { .. } => {
+                            format!("{source}. `sphpack check {path}` says more, and mends what can be mended")
+                        }
+                        _ => source.to_string(),
+                    },
                     path: path.into(),
                     at: None,
-                    message: source.to_string(),
                 },
                 source => Error::Body {
                     path: scene.path.clone(),
@@ -181,6 +194,7 @@ where
                 },
             })?;
         loops.extend(built.loops);
+        repairs.push(built.repairs);
         bodies.push(Body {
             name: body.name.clone(),
             surface: built.surface,
@@ -230,6 +244,7 @@ where
             problem,
             resolved,
             loops,
+            repairs,
             seconds: begin.elapsed().as_secs_f64(),
         },
         estimate,

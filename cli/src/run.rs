@@ -92,6 +92,7 @@ where
         problem,
         resolved,
         loops,
+        repairs,
         seconds: built,
     } = prepared;
     let mut packed = pack(&problem, scene, observer)?;
@@ -114,6 +115,9 @@ where
     let table = table(scene, &solution).kept_by_id(&keep);
     let mut report = report(scene, resolved, &solution, &table, built);
     report.mass_correction = masses.map(MassReport::from);
+    for (body, repairs) in report.bodies.iter_mut().zip(repairs) {
+        body.repairs = repairs;
+    }
     Ok(Outcome {
         packing: wrap(solution),
         table,
@@ -247,6 +251,7 @@ fn report<const D: usize>(
                 volume_true: body.surface.volume(),
                 volume,
                 mass: spec.density * volume,
+                repairs: Vec::new(),
             }
         })
         .collect();

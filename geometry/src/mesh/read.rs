@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use super::Mesh;
-use crate::GeometryError;
+use crate::{GeometryError, Soup};
 
 /// Bytes before the first triangle of a binary file: 80 of title, 4 of count.
 const HEAD: usize = 84;
@@ -34,23 +34,45 @@ impl Mesh {
     /// # Errors
     /// As [`Mesh::read_stl`], without a file's name.
     pub fn from_stl_bytes(bytes: Vec<u8>) -> Result<Self, GeometryError> {
-        let corners = if bytes.is_empty() {
-            return Err(bad("the file is empty; export the body again".into()));
-        } else if let Some(count) = binary_count(&bytes) {
-            // Room for every triangle has been checked, so the count cannot ask for more memory than there is file.
-            read_binary(bytes, count)?
-        } else if is_text(&bytes) {
-            read_text(&bytes)?
-        } else {
-            return Err(wrong_size(&bytes));
-        };
-        if corners.is_empty() {
-            return Err(bad(
-                "the file holds no triangles; export the body again".into()
-            ));
-        }
-        Self::from_loose(&corners)
+        Self::from_loose(&loose_from_stl_bytes(bytes)?)
     }
+}
+
+impl Soup {
+    /// Reads an STL file, binary or text, with whatever defects its triangles have.
+    ///
+    /// # Errors
+    /// [`GeometryError::InFile`] with the file's name around [`GeometryError::Unreadable`],
+    /// [`GeometryError::BadStl`], [`GeometryError::NotFinite`].
+    pub fn read_stl(path: impl AsRef<Path>) -> Result<Self, GeometryError> {
+        let path = path.as_ref();
+        std::fs::read(path)
+            .map_err(|e| GeometryError::Unreadable {
+                reason: e.to_string(),
+            })
+            .and_then(|bytes| Self::from_loose(&loose_from_stl_bytes(bytes)?))
+            .map_err(|e| e.in_file(path))
+    }
+}
+
+/// The triangles of an STL file's content, each its three corners.
+fn loose_from_stl_bytes(bytes: Vec<u8>) -> Result<Corners, GeometryError> {
+    let corners = if bytes.is_empty() {
+        return Err(bad("the file is empty; export the body again".into()));
+    } else if let Some(count) = binary_count(&bytes) {
+        // Room for every triangle has been checked, so the count cannot ask for more memory than there is file.
+        read_binary(bytes, count)?
+    } else if is_text(&bytes) {
+        read_text(&bytes)?
+    } else {
+        return Err(wrong_size(&bytes));
+    };
+    if corners.is_empty() {
+        return Err(bad(
+            "the file holds no triangles; export the body again".into()
+        ));
+    }
+    Ok(corners)
 }
 
 fn bad(reason: String) -> GeometryError {

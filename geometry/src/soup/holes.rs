@@ -46,7 +46,7 @@ fn rims(soup: &Soup, sides: &[Side]) -> Vec<Vec<u32>> {
             _ => {}
         }
     }
-    // The open side that ends where side (t, k) begins and bounds the same fan of triangles around that vertex.
+    // The open side that ends where side (t, k) begins, at the other end of the fan of triangles around that vertex.
     let before = |t: usize, k: usize| {
         let (mut t, mut k) = (t, (k + 2) % 3);
         for _ in 0..soup.triangles.len() {
@@ -57,6 +57,11 @@ fn rims(soup: &Soup, sides: &[Side]) -> Vec<Vec<u32>> {
             (t, k) = (next as usize, (usize::from(back) + 2) % 3);
         }
         (t, k)
+    };
+    // The unit vector from corner `i` of a triangle to corner `j`.
+    let direction = |t: usize, i: usize, j: usize| {
+        let corners = soup.corners(t);
+        point::unit(point::sub(corners[j], corners[i])).unwrap_or([0.0; 3])
     };
     let mut seen: BTreeSet<(usize, usize)> = BTreeSet::new();
     let mut rims = Vec::new();
@@ -73,11 +78,22 @@ fn rims(soup: &Soup, sides: &[Side]) -> Vec<Vec<u32>> {
             rim.push(soup.triangles[t][(k + 1) % 3]);
             let start_vertex = soup.triangles[t][k];
             let choices = into.get(&start_vertex).map_or(&[][..], Vec::as_slice);
-            let fan = before(t, k);
-            let next = if choices.contains(&fan) && !seen.contains(&fan) {
-                Some(fan)
+            let free = || choices.iter().copied().filter(|c| !seen.contains(c));
+            // Where holes meet in a vertex, the triangles between two of them bound both: a hole goes on along
+            // other triangles, the nearest by direction.
+            let next = if choices.len() > 1 {
+                let fan = before(t, k);
+                let here = direction(t, k, (k + 1) % 3);
+                free()
+                    .filter(|&c| c != fan)
+                    .max_by(|&(s, i), &(u, j)| {
+                        let along =
+                            |t: usize, k: usize| point::dot(here, direction(t, (k + 1) % 3, k));
+                        along(s, i).total_cmp(&along(u, j))
+                    })
+                    .or_else(|| free().next())
             } else {
-                choices.iter().copied().find(|c| !seen.contains(c))
+                free().next()
             };
             match next {
                 Some(next) if start_vertex != rim[0] => at = next,
@@ -95,7 +111,7 @@ fn rims(soup: &Soup, sides: &[Side]) -> Vec<Vec<u32>> {
 
 /// Triangles over every rim that can be closed, the smallest first.
 pub(super) fn fillings(soup: &Soup, sides: &[Side]) -> Vec<Filling> {
-    let edges: BTreeSet<[u32; 2]> = {
+    let mut edges: BTreeSet<[u32; 2]> = {
         let on_rim: BTreeSet<u32> = topology::edges(sides)
             .filter(|edge| edge.len() == 1)
             .flat_map(|edge| edge[0].ends().map(|v| v as u32))
@@ -117,8 +133,13 @@ pub(super) fn fillings(soup: &Soup, sides: &[Side]) -> Vec<Filling> {
             if points.len() <= MOST_POINTS
                 && let Some(triangles) = least_area(&points, is_taken)
             {
+                let triangles: Vec<[u32; 3]> =
+                    triangles.iter().map(|t| t.map(|i| rim[i])).collect();
+                for [a, b, c] in &triangles {
+                    edges.extend([(a, b), (b, c), (c, a)].map(|(v, w)| [*v.min(w), *v.max(w)]));
+                }
                 return Filling {
-                    triangles: triangles.iter().map(|t| t.map(|i| rim[i])).collect(),
+                    triangles,
                     middle: None,
                     place,
                     size,

@@ -12,12 +12,13 @@ mod shells;
 #[cfg(test)]
 mod tests;
 mod triangulate;
+mod write;
 
 use rayon::prelude::*;
 use sphpack_neighbors::{Bounds, point};
 
-use crate::GeometryError;
 use crate::mesh::{topology, weld};
+use crate::{GeometryError, Similarity};
 
 pub use body::Mended;
 pub use repair::{HoleLimit, Repair, Repaired};
@@ -112,6 +113,18 @@ impl Soup {
             vertices,
             triangles,
             welded: 0,
+        })
+    }
+
+    /// The triangles scaled, rotated and moved.
+    ///
+    /// # Errors
+    /// [`GeometryError::NotFinite`] where numbers overflow.
+    pub fn transformed(&self, by: &Similarity<3>) -> Result<Self, GeometryError> {
+        let vertices = self.vertices.iter().map(|&v| by.point(v)).collect();
+        Ok(Self {
+            welded: self.welded,
+            ..Self::new(vertices, self.triangles.clone())?
         })
     }
 

@@ -137,6 +137,15 @@ fn two_holes_that_meet_in_a_vertex() {
     let repaired = holed.repaired(HoleLimit::Across(1.0));
     assert!(repaired.report.is_clean(), "{:?}", repaired.report.defects);
     assert_eq!(repaired.soup.triangles.len(), 320);
+    assert!(matches!(
+        repaired.done[..],
+        [Repair::Filled {
+            holes: 2,
+            triangles: 2,
+            ..
+        }]
+    ));
+    assert!((volume(&repaired.soup) / volume(&clean) - 1.0).abs() < 1e-12);
 }
 
 #[test]
