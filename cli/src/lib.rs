@@ -33,6 +33,7 @@ mod cloud;
 pub mod command;
 mod dimension;
 mod error;
+mod examined;
 pub mod files;
 mod labels;
 pub mod picture;
@@ -46,6 +47,7 @@ mod table;
 pub use body_file::BodyFile;
 pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};
+pub use examined::{DefectFound, Examine, Examined, HoleFound, MeshFindings, ShellFound, Thin};
 pub use plan::{Plan, plan};
 pub use report::{
     BodyReport, Counts, Density, History, MassReport, Report, Residual, SCHEMA, SecondsReport,

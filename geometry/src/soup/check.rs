@@ -120,7 +120,7 @@ fn roles(pieces: &[Piece], around: &[Vec<usize>]) -> Vec<Shell> {
             role: if piece.is_closed {
                 ShellRole::Body
             } else {
-                ShellRole::Open
+                ShellRole::Undecided
             },
             is_inverted: false,
             inside: around.first().copied(),
@@ -133,7 +133,7 @@ fn roles(pieces: &[Piece], around: &[Vec<usize>]) -> Vec<Shell> {
     let mut step = vec![0_i32; pieces.len()];
     let mut turns = vec![false; pieces.len()];
     for s in order {
-        if shells[s].role == ShellRole::Open {
+        if shells[s].role == ShellRole::Undecided {
             continue;
         }
         let outside: i32 = around[s].iter().map(|&c| step[c]).sum();

@@ -282,7 +282,7 @@ impl Soup {
             let closed = survey
                 .shells
                 .iter()
-                .filter(|shell| shell.role != ShellRole::Open)
+                .filter(|shell| shell.role != ShellRole::Undecided)
                 .count();
             done.push(Repair::TurnedShells(count, closed));
         }

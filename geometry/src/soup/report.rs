@@ -150,8 +150,8 @@ pub enum ShellRole {
     Cavity,
     /// Within a solid shell and solid itself: it adds nothing.
     Redundant,
-    /// It is open, or its triangles do not agree: it has no inside.
-    Open,
+    /// It is open, or its triangles disagree: it has no inside yet.
+    Undecided,
 }
 
 impl ShellRole {
@@ -161,7 +161,7 @@ impl ShellRole {
             Self::Body => "body",
             Self::Cavity => "cavity",
             Self::Redundant => "redundant",
-            Self::Open => "open",
+            Self::Undecided => "undecided",
         }
     }
 }

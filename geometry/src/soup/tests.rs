@@ -83,7 +83,7 @@ fn small_holes_are_closed_and_large_ones_told() {
     let report = holed.check();
     assert_eq!(kinds(&report), [(DefectKind::OpenEdge, 60)]);
     assert_eq!(report.holes.len(), 20);
-    assert_eq!(report.shells[0].role, ShellRole::Open);
+    assert_eq!(report.shells[0].role, ShellRole::Undecided);
     let body = holed.body().unwrap();
     assert!(matches!(
         body.done[..],
