@@ -6,6 +6,7 @@ mod crossings;
 mod doubles;
 mod facing;
 mod holes;
+mod join;
 mod repair;
 mod report;
 mod shells;

@@ -295,6 +295,93 @@ fn crossings_are_found_exactly() {
     assert!(report.defect(DefectKind::SelfIntersection).is_some());
 }
 
+#[track_caller]
+fn joins(parts: &[&[[[f64; 3]; 3]]], expected: f64, tolerance: f64) -> Mesh {
+    let body = joined(parts).body().unwrap();
+    assert!(
+        body.done
+            .iter()
+            .any(|d| matches!(d, Repair::Joined { shells, .. } if *shells == parts.len())),
+        "{:?}",
+        body.done
+    );
+    let volume = body.mesh.volume();
+    assert!(
+        (volume - expected).abs() < tolerance,
+        "{volume}, not {expected}"
+    );
+    body.mesh
+}
+
+#[test]
+fn overlapping_shells_become_one() {
+    let unit = cuboid([0.0; 3], [1.0; 3]);
+    // Boxes: one sticks into the other, through it, through one triangle of a side only.
+    let stick = cuboid([0.3, 0.2, 0.4], [1.5, 0.7, 0.8]);
+    let mesh = joins(&[&unit, &stick], 1.0 + 0.5 * 0.5 * 0.4, 1e-12);
+    assert!((mesh.measure() - (6.0 + 2.0 * 0.5 * 0.9)).abs() < 1e-9);
+    joins(&[&stick, &unit], 1.1, 1e-12);
+    let bar = cuboid([-1.0, 0.41, 0.42], [2.0, 0.61, 0.64]);
+    joins(&[&unit, &bar], 1.0 + 2.0 * 0.2 * 0.22, 1e-12);
+    let needle = cuboid([-1.0, 0.7, 0.1], [2.0, 0.8, 0.2]);
+    joins(&[&unit, &needle], 1.0 + 2.0 * 0.01, 1e-12);
+    // Three bars through one place, the sides of each their own: points where three triangles meet.
+    let along = |k: usize, half: f64, end: f64| {
+        let (mut a, mut b) = ([-half; 3], [half; 3]);
+        (a[k], b[k]) = (-end, end + 0.1);
+        cuboid(a, b)
+    };
+    let (l, m, n) = (along(0, 0.5, 2.0), along(1, 0.47, 2.2), along(2, 0.43, 2.1));
+    let alone = 4.1 * 1.0 + 4.5 * 0.94_f64.powi(2) + 4.3 * 0.86_f64.powi(2);
+    let [lm, mn, nl] = [0.94 * 0.94 * 1.0, 0.86 * 0.86 * 0.94, 0.86 * 0.86 * 1.0];
+    let core = 0.86 * 0.86 * 0.94;
+    joins(&[&l, &m, &n], alone - lm - mn - nl + core, 1e-9);
+    // Spheres: what they have in common once.
+    let (a, b) = (ball(3, 1.0, [0.0; 3]), ball(3, 1.0, [1.2, 0.1, 0.06]));
+    let d: f64 = point::norm([1.2, 0.1, 0.06]);
+    let lens = std::f64::consts::PI * (4.0 + d) * (2.0 - d).powi(2) / 12.0;
+    let one = volume(&joined(&[&a]));
+    let mesh = joins(&[&a, &b], 2.0 * one - lens, 0.02 * one);
+    assert!(mesh.inside([0.6, 0.0, 0.0]) && !mesh.inside([0.6, 0.9, 0.0]));
+    // Inverted first.
+    let mended = joined(&[&turned(&a), &b]).body().unwrap();
+    assert!((mended.mesh.volume() - mesh.volume()).abs() < 1e-12);
+}
+
+#[test]
+fn touching_shells_become_one() {
+    let unit = cuboid([0.0; 3], [1.0; 3]);
+    // Common planes.
+    joins(
+        &[&unit, &cuboid([0.5, 0.0, 0.0], [1.5, 1.0, 1.0])],
+        1.5,
+        1e-4,
+    );
+    // A smaller box on a side.
+    joins(
+        &[&unit, &cuboid([1.0, 0.2, 0.3], [2.0, 0.8, 0.9])],
+        1.36,
+        1e-4,
+    );
+    // The same box, its sides cut otherwise.
+    let same: Vec<[[f64; 3]; 3]> = unit
+        .iter()
+        .map(|&[a, b, c]| [a, c, b].map(|p| [1.0 - p[0], p[1], p[2]]))
+        .collect();
+    let mended = joined(&[&unit, &same]).body().unwrap();
+    assert!(
+        (mended.mesh.volume() - 1.0).abs() < 1e-4,
+        "{:?}",
+        mended.done
+    );
+}
+
+#[test]
+fn a_shell_within_another_adds_nothing() {
+    let (outer, inner) = (ball(2, 1.0, [0.0; 3]), ball(1, 0.4, [0.1, 0.2, 0.0]));
+    joins(&[&outer, &inner], volume(&joined(&[&outer])), 1e-12);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
@@ -345,5 +432,7 @@ proptest! {
         let report = moved.check();
         prop_assert_eq!(report.defect(DefectKind::Overlap).is_some(), overlaps);
         prop_assert_eq!(report.is_clean(), !overlaps);
+        let expected = 8.0 + 2.0 * 1.2 * 1.4 - if overlaps { gap * 1.2 * 1.4 } else { 0.0 };
+        prop_assert!((moved.body().unwrap().mesh.volume() - expected).abs() < 1e-6);
     }
 }

@@ -1,15 +1,18 @@
 //! Triangles that close a loop of points in space.
 
-use sphpack_neighbors::point;
+use sphpack_neighbors::{Bounds, point};
 
 use crate::mesh::triangle;
 
 /// Loops of more points get a fan around their middle: the search grows with the cube.
 pub(super) const MOST_POINTS: usize = 300;
 
-/// How much the squared longest side of a triangle weighs beside its area: just enough that flat loops get compact
-/// triangles, and none without area where that can be had.
-const COMPACT: f64 = 1e-3;
+/// What a bad shape costs, in parts of the squared longest side, for each time that exceeds the area: just enough that
+/// of all ways to fill a flat loop the one with compact triangles is taken.
+const SHAPE: f64 = 1e-6;
+
+/// A triangle with less area than this part of its squared longest side has none.
+const FLAT: f64 = 1e-9;
 
 /// The triangles over the loop `points`, three places in it each and in its direction, of the least area in all;
 /// `None` where `is_taken` forbids all choices. `is_taken(i, j)`: whether no new side may run between two points.
@@ -23,12 +26,19 @@ pub(super) fn least_area(
     if !(3..=MOST_POINTS).contains(&n) {
         return None;
     }
+    // Triangles without area only where nothing else is left: they would cost more than all others together.
+    let most = Bounds::of(points).diagonal().powi(2);
     let cost = |i: usize, j: usize, k: usize| {
         let t = [points[i], points[j], points[k]];
         let longest = (0..3)
             .map(|s| point::distance_squared(t[s], t[(s + 1) % 3]))
             .fold(0.0, f64::max);
-        triangle::area(&t) + COMPACT * longest
+        let area = triangle::area(&t);
+        if area > FLAT * longest {
+            area + SHAPE * longest * (longest / area).min(1e4)
+        } else {
+            most
+        }
     };
     // Of the part from i to j, closed by the straight line: least cost, and the third corner on that line.
     let mut best = vec![0.0_f64; n * n];
