@@ -36,6 +36,7 @@ mod error;
 mod examined;
 pub mod files;
 mod labels;
+mod overlap;
 pub mod picture;
 mod plan;
 mod report;

@@ -9,8 +9,9 @@ use sphpack_packing::{Body, Estimate, FrozenLayout, PackingError, Problem};
 use crate::Error;
 use crate::body_file::BodyFile;
 use crate::dimension::{Dimension, Space};
+use crate::overlap;
 use crate::report::kibibytes;
-use crate::scene::{Fault, Frozen, Scene};
+use crate::scene::{Fault, Frozen, Role, Scene};
 
 /// What a scene will need.
 #[derive(Debug, Clone, PartialEq)]
@@ -201,6 +202,7 @@ where
             inset_over_spacing: body.surface.0,
         });
     }
+    refuse_overlaps(scene, &bodies)?;
     let domain = domain(scene, &bodies);
     let problem = Problem {
         domain,
@@ -249,6 +251,25 @@ where
         },
         estimate,
     ))
+}
+
+/// Solid bodies may touch, but not claim the same room. What is in a void or a container is another matter.
+fn refuse_overlaps<const D: usize>(scene: &Scene, bodies: &[Body<D>]) -> Result<(), Error> {
+    let is_solid = |i: usize| scene.body[i].role == Role::Solid;
+    let Some(found) = overlap::first(bodies, scene.spacing, is_solid) else {
+        return Ok(());
+    };
+    let [a, b] = found.bodies.map(|i| &bodies[i].name);
+    let place: Vec<String> = found.place.iter().map(|x| format!("{x:.4}")).collect();
+    Err(Error::Scene {
+        path: scene.path.clone(),
+        at: None,
+        message: format!(
+            "bodies \"{a}\" and \"{b}\" overlap: ({}) is in both, {:.2} spacings deep; move one, or cut the common part from one (bodies may touch)",
+            place.join(", "),
+            found.depth / scene.spacing
+        ),
+    })
 }
 
 /// The same problem with the kernel that judges.

@@ -167,3 +167,26 @@ fn a_missing_cap_is_refused_with_the_cure() {
         ],
     );
 }
+
+#[test]
+fn overlapping_shells_are_packed_as_one() {
+    let mut both = sphere([0.0; 3]);
+    both.extend(sphere([0.6, 0.05, 0.03]));
+    let (volume, linf, repairs, said) = pack(&both);
+    let d = 0.6_f64.hypot(0.05).hypot(0.03);
+    let lens = std::f64::consts::PI * (2.0 + d) * (1.0 - d).powi(2) / 12.0;
+    let exact = std::f64::consts::PI / 3.0 - lens;
+    eprintln!(
+        "overlapping: volume {:+.4} %, L∞ {linf:.5}",
+        100.0 * (volume / exact - 1.0)
+    );
+    assert!((volume / exact - 1.0).abs() < 0.03, "{volume}, not {exact}");
+    let (_, alone, _, _) = pack(&sphere([0.0; 3]));
+    assert!(linf < 2.0 * alone, "{linf}, not {alone}");
+    assert_eq!(repairs.len(), 1);
+    assert!(
+        said.contains("2 shells that overlapped or touched were joined"),
+        "{said}"
+    );
+    assert!(said.contains("counts once"), "{said}");
+}

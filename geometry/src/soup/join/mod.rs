@@ -74,15 +74,17 @@ fn grow(soup: &Soup, pieces: &[Piece], step: f64) -> Soup {
                 // Faces of two shells that lay on each other stay parallel, one further out; and a trace of disorder
                 // parts what would still meet in a point. Multiples of irrational numbers: even, without a pattern.
                 let of_shell = (s as f64 * 0.414_213_562) % 1.0;
-                let of_vertex = (f64::from(*v) * 0.618_033_989) % 1.0;
-                factor[*v as usize] = 1.0 + of_shell + 1e-4 * of_vertex;
+                factor[*v as usize] = 1.0 + of_shell;
             }
         }
     }
     let vertices = (0..soup.vertices.len())
         .map(|v| {
             let along = point::unit(normal[v]).unwrap_or([0.0; 3]);
-            point::add_scaled(soup.vertices[v], step * factor[v], along)
+            let disorder =
+                [0.819_172_513, 0.671_043_607, 0.549_700_478].map(|a| (a * (v as f64 + 1.0)) % 1.0);
+            let moved = point::add_scaled(soup.vertices[v], step * factor[v], along);
+            point::add_scaled(moved, 1e-4 * step, disorder)
         })
         .collect();
     Soup {
