@@ -155,7 +155,7 @@ impl Examined {
         examined.volume = report.volume;
         let body = match what.fill_holes {
             Some(most) => soup.repaired(HoleLimit::Across(most)).body(),
-            None => soup.body(),
+            None => soup.body_knowing(&report),
         };
         examined.mesh = Some(report.into());
         match body {

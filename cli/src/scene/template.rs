@@ -13,7 +13,7 @@ max = [2.0, 2.0]
 # margin = 0.8                   # instead of min and max: a box around the bodies, this far from them (no default)
 # periodic = [false, false]      # axes that wrap around
 
-[[body]]                         # as many as you like; a particle belongs to the first that holds it
+[[body]]                         # as many as you like; solid ones may touch, not overlap
 name = "cylinder"
 shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # Other shapes (`sphpack list shapes`):

@@ -27,7 +27,14 @@ impl Soup {
     /// # Errors
     /// [`GeometryError::Defective`] with every defect that is left and its cure, or what [`Mesh::new`] finds.
     pub fn body(&self) -> Result<Mended, GeometryError> {
-        let report = self.check();
+        self.body_knowing(&self.check())
+    }
+
+    /// [`Soup::body`] where what [`Soup::check`] finds is known already.
+    ///
+    /// # Errors
+    /// As [`Soup::body`].
+    pub fn body_knowing(&self, report: &MeshReport) -> Result<Mended, GeometryError> {
         if report.is_clean() {
             let done = if self.welded > 0 {
                 vec![Repair::Welded(self.welded)]

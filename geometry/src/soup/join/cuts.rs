@@ -58,7 +58,8 @@ impl Cuts {
                         Meeting::Apart => {}
                         Meeting::Touching => return None,
                         Meeting::Crossing => {
-                            ends.push(cuts.on_edge(edge, [low, high], into, &target))
+                            let end = cuts.on_edge(edge, [low, high], into, &target);
+                            ends.push(end);
                         }
                     }
                 }
