@@ -5,10 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sphpack_geometry::{
-    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, Outline, Placed, Similarity, Soup, Surface,
-    Torus,
+    Ball, BodyFormat, Cuboid, Cylinder, Ellipsoid, GeometryError, Outline, Placed, Similarity,
+    Soup, Surface, Torus,
 };
 
+use crate::body_file;
 use crate::scene::{BodySpec, Shape};
 
 /// A body's surface, and its outline for pictures.
@@ -17,16 +18,19 @@ pub(crate) struct Built<const D: usize> {
     pub(crate) surface: Arc<dyn Surface<D>>,
     /// In 2-D, the closed loops to draw.
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
+    /// Where it comes from a file, the format and the number of triangles or points in it.
+    pub(crate) read: Option<(BodyFormat, usize)>,
     /// What was mended, a sentence each.
     pub(crate) repairs: Vec<String>,
 }
 
 impl<const D: usize> Built<D> {
-    /// A body that needed no mending.
-    fn sound(surface: Arc<dyn Surface<D>>, loops: Vec<Vec<[f64; 2]>>) -> Self {
+    /// A body by formula.
+    fn new(surface: Arc<dyn Surface<D>>, loops: Vec<Vec<[f64; 2]>>) -> Self {
         Self {
             surface,
             loops,
+            read: None,
             repairs: Vec::new(),
         }
     }
@@ -76,11 +80,12 @@ impl Dimension<2> for Space<2> {
         file: Option<&Path>,
         place: &Similarity<2>,
     ) -> Result<Built<2>, GeometryError> {
+        let mut read = None;
         let outline = match shape {
             Shape::Circle { center, radius } => {
                 let ball = Ball::new(place.point(array(center)), radius * place.scale())?;
                 let (middle, radius) = (ball.center(), ball.radius());
-                return Ok(Built::sound(
+                return Ok(Built::new(
                     Arc::new(ball),
                     vec![ring(|angle| {
                         [
@@ -92,7 +97,7 @@ impl Dimension<2> for Space<2> {
             }
             Shape::Ellipse { center, semi_axes } => {
                 let (c, a): ([f64; 2], [f64; 2]) = (array(center), array(semi_axes));
-                return Ok(Built::sound(
+                return Ok(Built::new(
                     Arc::new(Placed::new(Arc::new(Ellipsoid::new(c, a)?), *place)),
                     vec![ring(|angle| {
                         place.point([c[0] + a[0] * angle.cos(), c[1] + a[1] * angle.sin()])
@@ -101,7 +106,7 @@ impl Dimension<2> for Space<2> {
             }
             Shape::Box { min, max } => {
                 let (a, b): ([f64; 2], [f64; 2]) = (array(min), array(max));
-                return Ok(Built::sound(
+                return Ok(Built::new(
                     Arc::new(Placed::new(Arc::new(Cuboid::new(a, b)?), *place)),
                     vec![
                         [a, [b[0], a[1]], b, [a[0], b[1]]]
@@ -126,12 +131,19 @@ impl Dimension<2> for Space<2> {
                 teeth,
             } => Outline::zigzag(*width, *height, *amplitude, *teeth)?,
             Shape::Naca { digits, chord } => Outline::naca(digits, *chord)?,
-            Shape::File(path) => Outline::from_csv(file.unwrap_or(path))?,
+            Shape::File(path) => {
+                let (format, outline) = body_file::read(file.unwrap_or(path), Outline::from_bytes)?;
+                read = Some((format, outline.points().len()));
+                outline
+            }
             _ => return Err(wrong_dimension(shape, 2)),
         };
         let outline = outline.transformed(place);
         let loops = outline.loops().map(<[_]>::to_vec).collect();
-        Ok(Built::sound(Arc::new(outline), loops))
+        Ok(Built {
+            read,
+            ..Built::new(Arc::new(outline), loops)
+        })
     }
 }
 
@@ -180,19 +192,19 @@ impl Dimension<3> for Space<3> {
             )?),
             Shape::File(path) => {
                 let path = file.unwrap_or(path);
-                let mended = Soup::read_stl(path)?
-                    .transformed(place)
-                    .and_then(|soup| soup.body())
-                    .map_err(|e| e.in_file(path))?;
+                let (format, (triangles, mended)) = body_file::read(path, |format, bytes| {
+                    let soup = Soup::from_bytes(format, bytes)?;
+                    Ok((soup.triangles().len(), soup.transformed(place)?.body()?))
+                })?;
                 return Ok(Built {
-                    surface: Arc::new(mended.mesh),
-                    loops: Vec::new(),
+                    read: Some((format, triangles)),
                     repairs: mended.done.iter().map(ToString::to_string).collect(),
+                    ..Built::new(Arc::new(mended.mesh), Vec::new())
                 });
             }
             _ => return Err(wrong_dimension(shape, 3)),
         };
-        Ok(Built::sound(surface, Vec::new()))
+        Ok(Built::new(surface, Vec::new()))
     }
 }
 

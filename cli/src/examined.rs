@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-use sphpack_geometry::{GeometryError, HoleLimit, Mesh, MeshReport, Outline, Soup, Surface};
+use serde::{Serialize, Serializer};
+use sphpack_geometry::{
+    BodyFormat, GeometryError, HoleLimit, Mesh, MeshReport, Outline, Soup, Surface,
+};
 use sphpack_neighbors::Bounds;
 
 use crate::Error;
-use crate::body_file::BodyFile;
+use crate::body_file::{self, body_format};
 
 /// The version of the keys.
 const SCHEMA: u32 = 1;
@@ -22,6 +24,9 @@ pub struct Examined {
     pub schema: u32,
     /// The file.
     pub file: PathBuf,
+    /// What it was read as: stl, obj, ply, csv, dat (an airfoil) or svg, whatever its name.
+    #[serde(serialize_with = "extension")]
+    pub format: BodyFormat,
     /// 2 or 3.
     pub dimension: usize,
     /// Whether `sphpack pack` packs it, after the `repairs` where there are any.
@@ -142,15 +147,16 @@ impl Examined {
             },
             source => Error::input(path, source.to_string()),
         };
-        if BodyFile::detect(path)?.dimension() == 2 {
-            let outline = Outline::from_csv(path).map_err(in_file)?;
-            let mut examined = Self::new(path, outline.bounds());
+        // What keeps the file from being opened is said as of any other file.
+        if body_format(path)?.dimension() == 2 {
+            let (format, outline) = body_file::read(path, Outline::from_bytes).map_err(in_file)?;
+            let mut examined = Self::new(path, format, outline.bounds());
             examined.be(&outline, what.spacing);
             return Ok((examined, None));
         }
-        let soup = Soup::read_stl(path).map_err(in_file)?;
+        let (format, soup) = body_file::read(path, Soup::from_bytes).map_err(in_file)?;
         let report = soup.check();
-        let mut examined = Self::new(path, report.bounds);
+        let mut examined = Self::new(path, format, report.bounds);
         examined.measure = report.area;
         examined.volume = report.volume;
         let body = match what.fill_holes {
@@ -171,10 +177,11 @@ impl Examined {
         }
     }
 
-    fn new<const D: usize>(path: &Path, bounds: Bounds<D>) -> Self {
+    fn new<const D: usize>(path: &Path, format: BodyFormat, bounds: Bounds<D>) -> Self {
         Self {
             schema: SCHEMA,
             file: path.to_owned(),
+            format,
             dimension: D,
             can_be_packed: false,
             reason: None,
@@ -195,6 +202,10 @@ impl Examined {
         self.volume = surface.volume();
         self.thin = spacing.map(|spacing| thin(surface, spacing));
     }
+}
+
+fn extension<S: Serializer>(format: &BodyFormat, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(format.extension())
 }
 
 /// Measures the thickness at places that stand for equal parts of the surface.

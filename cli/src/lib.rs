@@ -36,6 +36,7 @@ mod error;
 mod examined;
 pub mod files;
 mod labels;
+mod methods;
 mod overlap;
 pub mod picture;
 mod plan;
@@ -45,7 +46,7 @@ pub mod scene;
 mod seen;
 mod table;
 
-pub use body_file::BodyFile;
+pub use body_file::{ReadBody, body_format};
 pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};
 pub use examined::{DefectFound, Examine, Examined, HoleFound, MeshFindings, ShellFound, Thin};

@@ -7,7 +7,7 @@ use sphpack_neighbors::{Bounds, Domain};
 use sphpack_packing::{Body, Estimate, FrozenLayout, PackingError, Problem};
 
 use crate::Error;
-use crate::body_file::BodyFile;
+use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Dimension, Space};
 use crate::overlap;
 use crate::report::kibibytes;
@@ -18,6 +18,8 @@ use crate::scene::{Fault, Frozen, Role, Scene};
 pub struct Plan {
     /// 2 or 3.
     pub dimension: usize,
+    /// What the bodies' files hold.
+    pub read: Vec<ReadBody>,
     /// Particles, memory and time.
     pub estimate: Estimate,
     /// The memory that may be used, bytes.
@@ -35,6 +37,8 @@ pub(crate) struct Prepared<const D: usize> {
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
     /// What was mended of each body, a sentence each.
     pub(crate) repairs: Vec<Vec<String>>,
+    /// What the bodies' files hold.
+    pub(crate) read: Vec<ReadBody>,
     /// Seconds spent on building the bodies.
     pub(crate) seconds: f64,
 }
@@ -52,12 +56,13 @@ const MAX_PARTICLES: f64 = 4e9;
 pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
     let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
     let dimension = dimension(scene)?;
-    let (estimate, repairs) = match dimension {
-        2 => prepare::<2>(scene, allowed_bytes).map(|(p, estimate)| (estimate, p.repairs)),
-        _ => prepare::<3>(scene, allowed_bytes).map(|(p, estimate)| (estimate, p.repairs)),
+    let (read, repairs, estimate) = match dimension {
+        2 => prepare::<2>(scene, allowed_bytes).map(|(p, e)| (p.read, p.repairs, e)),
+        _ => prepare::<3>(scene, allowed_bytes).map(|(p, e)| (p.read, p.repairs, e)),
     }?;
     Ok(Plan {
         dimension,
+        read,
         estimate,
         allowed_bytes,
         repairs,
@@ -88,13 +93,10 @@ pub(crate) fn dimension(scene: &Scene) -> Result<usize, Error> {
         let (dimension, what) = match body.shape.file() {
             Some(file) => {
                 let path = scene.resolve(file);
-                let kind =
-                    BodyFile::detect(&path).map_err(|error| of_body(error, scene, &body.name))?;
-                let what = match kind {
-                    BodyFile::Stl => "a mesh",
-                    BodyFile::Csv => "an outline",
-                };
-                (kind.dimension(), format!("{}, {what}", path.display()))
+                let format =
+                    body_format(&path).map_err(|error| of_body(error, scene, &body.name))?;
+                let what = format.description();
+                (format.dimension(), format!("{}, {what}", path.display()))
             }
             None => (
                 body.shape.dimension().unwrap_or(3),
@@ -172,6 +174,7 @@ where
     let mut bodies = Vec::new();
     let mut loops = Vec::new();
     let mut repairs = Vec::new();
+    let mut read = Vec::new();
     for body in &scene.body {
         let file = body.shape.file().map(|file| scene.resolve(file));
         let built = Space::<D>::place(body)
@@ -196,6 +199,12 @@ where
             })?;
         loops.extend(built.loops);
         repairs.push(built.repairs);
+        read.extend(built.read.map(|(format, count)| ReadBody {
+            name: body.name.clone(),
+            format,
+            count,
+            size: built.surface.bounds().size().to_vec(),
+        }));
         bodies.push(Body {
             name: body.name.clone(),
             surface: built.surface,
@@ -208,8 +217,8 @@ where
         domain,
         spacing: scene.spacing,
         bodies,
-        kernel: scene.packing.kernel,
-        h_over_spacing: scene.packing.h_over_spacing,
+        kernel: scene.packing.kernel(),
+        h_over_spacing: scene.packing.h_over_spacing(),
         seed: scene.packing.seed,
         lattice: scene.packing.lattice,
         frozen: match scene.packing.frozen {
@@ -237,6 +246,8 @@ where
     resolved.domain.periodic = Some(domain.periodic.to_vec());
     resolved.packing.lattice = Some(problem.chosen_lattice());
     let settling = scene.packing.settling();
+    resolved.packing.kernel = Some(problem.kernel);
+    resolved.packing.h_over_spacing = Some(problem.h_over_spacing);
     resolved.packing.residual_tolerance = Some(settling.tolerance());
     let (kernel, h_over_spacing) = scene.judge();
     resolved.quality.kernel = Some(kernel);
@@ -247,6 +258,7 @@ where
             resolved,
             loops,
             repairs,
+            read,
             seconds: begin.elapsed().as_secs_f64(),
         },
         estimate,

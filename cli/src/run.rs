@@ -1,20 +1,20 @@
 //! The way of the data: scene, problem, particles, labels, figures.
 
 use sphpack_neighbors::point;
-use sphpack_packing::{
-    Balanced, Band, Fields, Hybrid, Kind, Observer, Packed, Problem, Quality, StopReason,
-};
+use sphpack_packing::{Fields, Kind, Observer, Packed, Problem, Quality, StopReason};
 use sphpack_separation::{Labels, Side};
 
 use crate::Error;
+use crate::body_file::ReadBody;
 use crate::dimension::{Dimension, Space};
 use crate::labels::{Sorted, sort};
+use crate::methods::pack;
 use crate::plan::{Prepared, available_bytes, dimension, judged, prepare};
 use crate::report::{
     BodyReport, Counts, History, MassReport, Report, SCHEMA, SecondsReport, SurfaceReport, finite,
     peak_memory_bytes,
 };
-use crate::scene::{BandWidth, Masses, Method, Scene};
+use crate::scene::{Masses, Scene};
 use crate::seen::Seen;
 use crate::table::Table;
 
@@ -58,6 +58,8 @@ pub struct Outcome {
     pub table: Table,
     /// In 2-D, the true bodies as closed loops.
     pub loops: Vec<Vec<[f64; 2]>>,
+    /// What the bodies' files hold.
+    pub read: Vec<ReadBody>,
     /// The figures, dimension forgotten.
     pub report: Report,
 }
@@ -92,6 +94,7 @@ where
         problem,
         resolved,
         loops,
+        read,
         repairs,
         seconds: built,
     } = prepared;
@@ -122,42 +125,8 @@ where
         packing: wrap(solution),
         table,
         loops,
+        read,
         report,
-    })
-}
-
-fn pack<const D: usize>(
-    problem: &Problem<D>,
-    scene: &Scene,
-    observer: &mut dyn Observer,
-) -> Result<Packed<D>, Error> {
-    let packing = &scene.packing;
-    let packed = match packing.method {
-        Method::Balanced => Balanced {
-            settling: packing.settling(),
-            band: match packing.band {
-                BandWidth::Auto => Band::Auto,
-                BandWidth::Full => Band::Full,
-            },
-        }
-        .pack(problem, observer),
-        Method::Hybrid => Hybrid {
-            velocity_tolerance: packing.velocity_tolerance,
-            max_iterations: packing.max_iterations,
-            settling: packing.minimiser.map(|_| packing.settling()),
-            ..Hybrid::default()
-        }
-        .pack(problem, observer),
-        other => {
-            return Err(Error::System(format!(
-                "this version has no method \"{}\"",
-                other.name()
-            )));
-        }
-    };
-    packed.map_err(|source| Error::Packing {
-        path: scene.path.clone(),
-        source,
     })
 }
 

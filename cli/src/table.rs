@@ -85,4 +85,18 @@ impl Table {
             .filter(|(_, kind)| **kind != Kind::Frozen)
             .fold(0.0, |most, (gamma, _)| f64::max(most, (gamma - 1.0).abs()))
     }
+
+    /// |Γ − 1| that this part (0 … 1) of the particles inside the domain does not exceed; 0 where there are none.
+    pub fn error_of_most(&self, part: f64) -> f64 {
+        let mut errors: Vec<f64> = (self.gamma.iter().zip(&self.kind))
+            .filter(|(_, kind)| **kind != Kind::Frozen)
+            .map(|(gamma, _)| (gamma - 1.0).abs())
+            .collect();
+        errors.sort_by(f64::total_cmp);
+        let place = (errors.len() as f64 * part) as usize;
+        errors
+            .get(place.min(errors.len().saturating_sub(1)))
+            .copied()
+            .unwrap_or(0.0)
+    }
 }

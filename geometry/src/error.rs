@@ -85,7 +85,7 @@ pub enum GeometryError {
         /// The operating system's reason.
         reason: String,
     },
-    /// A row of a text file is not what it should be.
+    /// A line of a text file is not what it should be.
     #[error("line {line}: {reason}")]
     BadRow {
         /// Counted from 1.
@@ -93,9 +93,17 @@ pub enum GeometryError {
         /// What is wrong, and the cure.
         reason: String,
     },
-    /// A file is no STL file, or a damaged one.
+    /// Something in a binary file is not what it should be.
+    #[error("byte {offset}: {reason}")]
+    BadByte {
+        /// Counted from 0.
+        offset: usize,
+        /// What is wrong, and the cure.
+        reason: String,
+    },
+    /// A file as a whole is damaged, empty, or of no format that is read.
     #[error("{reason}")]
-    BadStl {
+    BadFile {
         /// What is wrong, and the cure.
         reason: String,
     },

@@ -25,17 +25,20 @@
 //! | what | type |
 //! |---|---|
 //! | the interface | [`Surface`], with [`Closest`], [`Feature`], [`Features`] |
-//! | 2-D: polygons, sampled curves, airfoils; CSV | [`Outline`] |
-//! | 3-D: closed triangle meshes; STL | [`Mesh`] |
+//! | 2-D: polygons, sampled curves, airfoils | [`Outline`] |
+//! | 3-D: closed triangle meshes | [`Mesh`] |
+//! | files: STL, OBJ, PLY; rows of x,y, airfoils, SVG | [`Mesh::read`], [`Outline::read`], [`BodyFormat`], [`Solid`] |
+//! | triangles with defects: check, mend, join | [`Soup`], [`Soup::read`], [`FastWinding`] |
 //! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
 //! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`] |
 //! | points: even ([`Surface::sample`]), by a weight, for thin bodies | [`sample_weighted`], [`sample_particles`], [`thickness()`] |
 //! | underneath | [`Bvh`] |
 //! | classical inside tests (000 eq. 14) | [`angle_sum`], [`winding_number`], [`crossing_number`] |
 //!
-//! Invariants: geometry knows no particles and no kernels; bodies are immutable; no input makes it panic; equal input
-//! gives equal bits, whatever the number of threads. Lengths are scene units. Papers are cited by number: 000 and 001
-//! are the packing papers of this project.
+//! Invariants: geometry knows no particles and no kernels; bodies are immutable; no input makes it panic, and no bytes
+//! make a reader run on or take more memory than in proportion to them; equal input gives equal bits, whatever the
+//! number of threads. Lengths are scene units. Papers are cited by number: 000 and 001 are the packing papers of this
+//! project.
 
 mod bvh;
 mod error;
@@ -43,6 +46,7 @@ mod level_inset;
 mod mesh;
 mod outline;
 mod placed;
+mod read;
 mod sample;
 mod sampling;
 mod segment;
@@ -62,6 +66,7 @@ pub use outline::{
     CORNER_DEGREES, MITRE_LIMIT, Outline, angle_sum, crossing_number, winding_number,
 };
 pub use placed::Placed;
+pub use read::{BodyFormat, FLATTENING_OVER_SIZE, Solid};
 pub use sample::sample_weighted;
 pub use sampling::SAGITTA_OVER_SIZE;
 pub use shapes::{Ball, Cuboid, Cylinder, Ellipsoid, Torus};

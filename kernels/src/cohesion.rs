@@ -2,6 +2,51 @@
 
 use std::f64::consts::PI;
 
+use crate::Number;
+use crate::kernel::{PIECES, Profile, Scaled, below};
+
+/// The potential of the cohesion, for pair loops that sum slopes: R times its slope is [`Cohesion`]'s C, its value zero
+/// from the support radius R on, which is its length h.
+pub type CohesionPotential<const D: usize> = Scaled<CohesionProfile, D>;
+
+/// The shape of [`CohesionPotential`]: with s = r/R, 32/π ∫ (1−s)³s³ + ((1−s)³s³ − 1/64 where s < ½) ds.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct CohesionProfile;
+
+impl<const D: usize> Profile<D> for CohesionProfile {
+    const SUPPORT: f64 = 1.0;
+    // A potential has no integral of one; its scale is such that its slope is C/R.
+    const SIGMA: f64 = 1.0;
+    const STARTS: [f64; PIECES] = [0.0, 0.5, 0.5];
+    const SLOPE: f64 = 32.0 / PI;
+
+    #[inline(always)]
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+        // u³(1−u)³ with u = 1 − s, and its integral from 0 to u.
+        let u = below(1.0, r, inverse);
+        let s = r.constant(1.0) - u;
+        let us = u * s;
+        let mut slope = us * us * us;
+        let u4 = u * u * (u * u);
+        let part = u.multiply_add(r.constant(-1.0 / 7.0), r.constant(0.5));
+        let part = part.multiply_add(u, r.constant(-0.6));
+        let part = part.multiply_add(u, r.constant(0.25));
+        let mut value = r.constant(0.0) - part * u4;
+        if PIECE < 1 {
+            // us = ¼ − t² with t = ½ − s: u³s³ − 1/64 = −t²(3/16 − ¾t² + t⁴), and its integral from 0 to t.
+            let t = below(0.5, r, inverse);
+            let t2 = t * t;
+            let well = t2.multiply_add(r.constant(1.0), r.constant(-0.75));
+            let well = well.multiply_add(t2, r.constant(3.0 / 16.0)) * t2;
+            slope = slope - well;
+            let deep = t2.multiply_add(r.constant(1.0 / 7.0), r.constant(-0.15));
+            let deep = deep.multiply_add(t2, r.constant(1.0 / 16.0)) * t2 * t;
+            value = value + deep;
+        }
+        (value * r.constant(32.0 / PI), slope)
+    }
+}
+
 /// The cohesion profile of Akinci et al. (2013), in the form of paper 001 eq. 29.
 ///
 /// With s = r/R and R the **support radius** (not a smoothing length):

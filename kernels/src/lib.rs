@@ -36,7 +36,7 @@ mod wendland;
 #[cfg(test)]
 mod tests;
 
-pub use cohesion::Cohesion;
+pub use cohesion::{Cohesion, CohesionPotential, CohesionProfile};
 pub use cubic::{Cubic, CubicProfile};
 pub use kernel::{Kernel, PIECES, Profile, SMALLEST_Q, Scaled};
 pub use kind::{KernelKind, UnknownKernel, WithKernel};

@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 
 use crate::{
-    Cohesion, Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4, WendlandC6, WithKernel,
+    Cohesion, CohesionPotential, Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4,
+    WendlandC6, WithKernel,
 };
 
 /// Surface of the unit sphere in D dimensions.
@@ -136,6 +137,18 @@ proptest! {
         prop_assert!(close(WendlandC2::<3>::new(h).value(q * h) * h.powi(3), WendlandC2::<3>::new(1.0).value(q)));
         prop_assert!(close(WendlandC4::<3>::new(h).value(q * h) * h.powi(3), WendlandC4::<3>::new(1.0).value(q)));
         prop_assert!(close(WendlandC6::<2>::new(h).value(q * h) * h * h, WendlandC6::<2>::new(1.0).value(q)));
+    }
+
+    #[test]
+    fn cohesion_is_the_slope_of_its_potential(support in 1e-3..1e3_f64, at in 0.01..1.2_f64) {
+        let (c, potential) = (Cohesion::<3>::new(support), CohesionPotential::<3>::new(support));
+        let r = at * support;
+        let scale = 32.0 / std::f64::consts::PI / support.powi(3);
+        prop_assert!((support * potential.slope(r) - c.value(r)).abs() < 1e-13 * scale);
+        let step = 1e-5 * support;
+        let difference = (potential.value(r + step) - potential.value(r - step)) / (2.0 * step);
+        prop_assert!((support * difference - c.value(r)).abs() < 1e-6 * scale);
+        prop_assert_eq!(potential.value(1.1 * support), 0.0);
     }
 
     #[test]

@@ -345,6 +345,15 @@ impl<const D: usize> CellList<D> {
             .collect_into_vec(slots);
     }
 
+    /// Writes other weights into gathered `slots`; `weights` has one entry per particle. O(n), parallel.
+    pub fn weigh(&self, weights: &[f64], slots: &mut [Slot]) {
+        slots
+            .par_iter_mut()
+            .zip(&self.particle)
+            .with_min_len(4096)
+            .for_each(|(slot, &i)| slot[3] = weights[i as usize]);
+    }
+
     /// Runs `f` over all blocks in parallel. `out` has one entry per target slot; a block gets those of its targets.
     /// No allocation.
     ///

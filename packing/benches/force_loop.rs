@@ -10,11 +10,19 @@ use rayon::prelude::*;
 use sphpack_kernels::{Kernel, KernelKind, Quintic};
 use sphpack_neighbors::{Bounds, Domain, KdTree, point};
 use sphpack_packing::Lattice;
-use sphpack_packing::forces::Forces;
+use sphpack_packing::forces::{Forces, Levelling};
 use sphpack_packing::repulsion::{Repulsion, STRENGTH};
 
 /// Particles that the scalar loop runs over.
 const SCALAR: usize = 20_000;
+
+/// What an evaluation does.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    Plain,
+    Levelling,
+    NewList,
+}
 
 /// A set of particles of unit spacing; the first are targets, the others frozen.
 struct Set<const D: usize> {
@@ -58,13 +66,14 @@ fn bench<const D: usize>(c: &mut Criterion, name: &str, set: &Set<D>, h: f64) {
         0.3,
         Repulsion::new(1.0, STRENGTH),
     );
-    let mut evaluate = |is_new: bool| {
-        if is_new {
+    let mut evaluate = |way: Way| {
+        if way == Way::NewList {
             forces.targets_changed();
         }
+        forces.levelling = Levelling::new(if way == Way::Levelling { 10.0 } else { 0.0 }, 1.0);
         forces.evaluate_plain(positions, &volumes, |i| i < set.targets);
     };
-    evaluate(true);
+    evaluate(Way::NewList);
     let mut group = c.benchmark_group(format!("{name}, {} targets, h/∆s {h}", set.targets));
     group
         .sample_size(10)
@@ -106,12 +115,15 @@ fn bench<const D: usize>(c: &mut Criterion, name: &str, set: &Set<D>, h: f64) {
         .sum();
     group.throughput(Throughput::Elements(pairs as u64));
     group.bench_function("blocks, one thread", |b| {
-        pool.install(|| b.iter(|| evaluate(false)));
+        pool.install(|| b.iter(|| evaluate(Way::Plain)));
+    });
+    group.bench_function("blocks, one thread, levelling", |b| {
+        pool.install(|| b.iter(|| evaluate(Way::Levelling)));
     });
     group.bench_function("blocks, one thread, new list", |b| {
-        pool.install(|| b.iter(|| evaluate(true)));
+        pool.install(|| b.iter(|| evaluate(Way::NewList)));
     });
-    group.bench_function("blocks, all threads", |b| b.iter(|| evaluate(false)));
+    group.bench_function("blocks, all threads", |b| b.iter(|| evaluate(Way::Plain)));
     group.finish();
 }
 

@@ -2,12 +2,10 @@
 
 use std::time::Instant;
 
-use rayon::prelude::*;
-use sphpack_neighbors::point;
-
 use crate::course::Course;
-use crate::forces::{Forces, largest};
+use crate::forces::Forces;
 use crate::minimise::{Landscape, Settling};
+use crate::motion::Motion;
 use crate::observer::{Observer, Phase};
 use crate::on_surface::{OnSurface, capture};
 use crate::packed::{Packed, StopReason};
@@ -90,33 +88,21 @@ impl Hybrid {
         let (h, spacing) = (problem.smoothing_length(), problem.spacing);
         let zeta = self.damping / spacing;
         let mut forces = Forces::of(problem, Repulsion::new(spacing, self.repulsion));
-        let mut velocity = vec![[0.0; D]; particles.len()];
+        let mut motion = Motion::at_rest(particles.len());
         let mut on_surface = OnSurface::default();
         on_surface.refresh(&particles);
-        let (mut iteration, mut empty_count, mut fastest) = (0, 0, 0.0_f64);
+        let (mut iteration, mut empty_count) = (0, 0);
         let mut stop_reason = StopReason::IterationLimit;
         course.progress.phase = Phase::Capture;
 
         while iteration < self.max_iterations && !course.interrupted {
             // UpdateNeighbors, ComputeAccelerations
             forces.evaluate(&particles);
-            // Eq. 25, with last step's velocities.
-            let dt = (0.1 * h).min((0.1 * h / (zeta * fastest)).sqrt());
-
-            // IntegrateParticles: eqs. 17 and 19; along the surface for boundary particles (eq. 22).
-            let kind = &particles.kind;
-            velocity
-                .par_iter_mut()
-                .zip(&mut particles.position)
-                .enumerate()
-                .with_min_len(1024)
-                .filter(|(i, _)| kind[*i].is_mobile())
-                .for_each(|(i, (u, x))| {
-                    let a = point::add_scaled(forces.acceleration(i), -zeta, *u);
-                    *u = on_surface.tangential(i, point::add_scaled(*u, dt, a));
-                    *x = point::add_scaled(*x, dt, *u);
-                });
-            fastest = largest(velocity.len(), |i| point::norm(velocity[i]));
+            let dt = motion.time_step(h, zeta, 1.0);
+            // IntegrateParticles
+            motion.advance(&mut particles, &on_surface, dt, zeta, |i| {
+                forces.acceleration(i)
+            });
 
             // ProjectParticles (algorithm 1); empty passes count in both branches.
             let projecting = Instant::now();
@@ -145,7 +131,7 @@ impl Hybrid {
                     Phase::Capture
                 };
                 course.progress.evaluation = iteration;
-                course.progress.criterion = fastest * dt / h;
+                course.progress.criterion = motion.fastest * dt / h;
                 course.progress.on_surface = on_surface.index.len() + particles.count(Kind::Fixed);
                 course.tell();
                 course.note(&forces, &particles);
@@ -166,7 +152,7 @@ impl Hybrid {
             course.progress.tolerance = settling.tolerance();
             let reach = problem.support();
             let mut landscape = Landscape::new(&mut particles, &surfaces, forces, spacing, reach);
-            stop_reason = settling.run(&mut landscape, &mut course, false);
+            stop_reason = settling.run(&mut landscape, &mut course, problem.perfect_gamma(), false);
             forces = landscape.into_forces();
         }
         Ok(course.end(

@@ -130,9 +130,20 @@ impl Lattice {
     /// Γ of a particle of the perfect, unstretched lattice: Σ V W over the lattice, 1 but for the kernel's own bias.
     pub fn gamma(self, kernel: KernelKind, h_over_spacing: f64) -> f64 {
         if self.dimension() == 2 {
-            kernel.with::<2, _>(h_over_spacing, SiteSum(self))
+            self.one_cell::<2>().gamma(kernel, h_over_spacing)
         } else {
-            kernel.with::<3, _>(h_over_spacing, SiteSum(self))
+            self.one_cell::<3>().gamma(kernel, h_over_spacing)
+        }
+    }
+
+    /// An unstretched cell of unit volume per site.
+    fn one_cell<const D: usize>(self) -> Filling<D> {
+        let unit = self.cell();
+        Filling {
+            lattice: self,
+            bounds: Bounds::new([0.0; D], std::array::from_fn(|k| unit[k])),
+            cells: [1; D],
+            phase: [0.0; D],
         }
     }
 
@@ -180,20 +191,19 @@ impl Lattice {
     }
 }
 
-/// Σ W over the sites of a lattice of unit volume per site, seen from one of them.
-struct SiteSum(Lattice);
+/// Σ W over the sites of an endless lattice, seen from one of them.
+struct SiteSum<const D: usize>(Filling<D>);
 
-impl<const D: usize> WithKernel<D> for SiteSum {
+impl<const D: usize> WithKernel<D> for SiteSum<D> {
     type Output = f64;
 
     fn call<K: Kernel<D>>(self, kernel: K) -> f64 {
-        let unit = self.0.cell();
-        let cell: [f64; D] = std::array::from_fn(|k| unit[k]);
+        let cell = self.0.cell();
         let filling = Filling {
-            lattice: self.0,
             bounds: Bounds::new([0.0; D], cell),
             cells: [1; D],
             phase: [0.0; D],
+            ..self.0
         };
         let first = filling.sites()[0];
         let mut sites = filling.sites();
@@ -235,6 +245,11 @@ impl<const D: usize> Filling<D> {
     /// The volume of one site: box volume / number of sites.
     pub fn volume_per_site(&self) -> f64 {
         self.bounds.volume() / self.count() as f64
+    }
+
+    /// Γ of a particle of the lattice, stretched as it is; `smoothing_length` in scene units.
+    pub fn gamma(&self, kernel: KernelKind, smoothing_length: f64) -> f64 {
+        self.volume_per_site() * kernel.with(smoothing_length, SiteSum(*self))
     }
 
     /// Edge lengths of the stretched cell, scene units.

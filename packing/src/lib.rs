@@ -23,12 +23,15 @@
 //! neighbour list is built anew or a particle is captured; nothing here reads or writes files.
 
 pub mod balanced;
+mod clipped;
+mod coupled;
 mod course;
 pub mod forces;
 mod hybrid;
 pub mod lattice;
 pub mod masses;
 pub mod minimise;
+mod motion;
 pub mod observer;
 pub mod on_surface;
 pub mod packed;
@@ -38,11 +41,14 @@ pub mod problem;
 pub mod quality;
 pub mod repulsion;
 pub mod seeding;
+mod standard;
 
 #[cfg(test)]
 mod tests;
 
 pub use balanced::{Balanced, Band};
+pub use clipped::Clipped;
+pub use coupled::Coupled;
 pub use hybrid::Hybrid;
 pub use lattice::Lattice;
 pub use masses::{MassCorrection, correct_masses};
@@ -52,3 +58,4 @@ pub use packed::{Packed, ParticleSurface, Seconds, StopReason};
 pub use particles::{Kind, Particles};
 pub use problem::{Body, Estimate, FrozenLayout, PackingError, Problem};
 pub use quality::{DensityQuality, Fields, Quality, ResidualQuality, SurfaceQuality};
+pub use standard::Standard;

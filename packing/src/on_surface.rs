@@ -36,13 +36,21 @@ impl<const D: usize> OnSurface<D> {
         surfaces: &[ParticleSurface<D>],
         reach: f64,
     ) {
+        self.project_by(particles, |p, body| {
+            surfaces[usize::from(body)].surface.closest_within(p, reach)
+        });
+    }
+
+    /// [`OnSurface::project`] to wherever `nearest` says, of a place and a body.
+    pub fn project_by(
+        &mut self,
+        particles: &mut Particles<D>,
+        nearest: impl Fn([f64; D], u16) -> Option<Closest<D>> + Sync,
+    ) {
         self.index
             .par_iter()
             .with_min_len(64)
-            .map(|&i| {
-                let surface = &surfaces[usize::from(particles.body[i].unwrap_or(0))].surface;
-                surface.closest_within(particles.position[i], reach)
-            })
+            .map(|&i| nearest(particles.position[i], particles.body[i].unwrap_or(0)))
             .collect_into_vec(&mut self.hits);
         for (&i, hit) in self.index.iter().zip(&self.hits) {
             if let Some(hit) = hit {

@@ -6,10 +6,12 @@ use sphpack_neighbors::{Block, CellList, GROUP, LANES, SHELLS, Slot};
 
 use crate::repulsion::{Coefficients, Repulsion};
 
+mod gradients;
 mod lanes;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use gradients::GradientLoop;
 use lanes::{Several, roots};
 
 /// The sums of one particle over its neighbours.
@@ -125,26 +127,8 @@ fn block_sums<S: Simd, P: Profile<D>, const D: usize>(
     simd.vectorize(
         #[inline(always)]
         || {
-            // Lanes beyond a short block repeat its last particle and are dropped at the end.
-            let last = block.len - 1;
-            let zero = f64x8::splat(simd, 0.0);
-            let mut x = [zero; D];
-            for k in 0..D {
-                let lanes: [f64; LANES] =
-                    std::array::from_fn(|lane| slots[block.first_slot + lane.min(last)][k]);
-                x[k] = lanes.simd_into(simd);
-            }
-            let mut walk = Walk {
-                simd,
-                constants,
-                slots,
-                x,
-                gamma: zero,
-                gradient: [zero; D],
-                repulsion: [zero; D],
-                repulsion_energy: zero,
-            };
-            let mut of_targets = zero;
+            let mut walk = Walk::new(simd, constants, slots, &block);
+            let mut of_targets = f64x8::splat(simd, 0.0);
             for are_targets in [true, false] {
                 for group in block.full(0, are_targets) {
                     let near = walk.add::<P, 0>(walk.full(group));
@@ -198,7 +182,30 @@ struct Near<S: Simd, const D: usize> {
     inverse: Several<S>,
 }
 
-impl<S: Simd, const D: usize> Walk<'_, S, D> {
+impl<'a, S: Simd, const D: usize> Walk<'a, S, D> {
+    /// A walk that has not begun. Lanes beyond a short block repeat its last particle and are dropped at the end.
+    #[inline(always)]
+    fn new(simd: S, constants: &'a Constants, slots: &'a [Slot], block: &Block<'_>) -> Self {
+        let last = block.len - 1;
+        let zero = f64x8::splat(simd, 0.0);
+        let mut x = [zero; D];
+        for k in 0..D {
+            let lanes: [f64; LANES] =
+                std::array::from_fn(|lane| slots[block.first_slot + lane.min(last)][k]);
+            x[k] = lanes.simd_into(simd);
+        }
+        Self {
+            simd,
+            constants,
+            slots,
+            x,
+            gamma: zero,
+            gradient: [zero; D],
+            repulsion: [zero; D],
+            repulsion_energy: zero,
+        }
+    }
+
     /// Candidates for all targets.
     #[inline(always)]
     fn full(&self, group: &[u32; GROUP]) -> Sources<S, D> {

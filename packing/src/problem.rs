@@ -126,6 +126,14 @@ pub enum PackingError {
         /// The scene's dimension.
         dimension: usize,
     },
+    /// A method for the plane was asked to pack space.
+    #[error(
+        "the method \"{method}\" works in the plane only; use \"balanced\", \"hybrid\" or \"coupled\" in 3-D"
+    )]
+    OnlyPlane {
+        /// The method's name.
+        method: &'static str,
+    },
     /// More particles than fit.
     #[error("about {particles:.3e} particles would need {:.1} GiB, more than the {:.1} GiB allowed; use a larger spacing or a smaller domain", *.needed_bytes / 1_073_741_824.0, *.allowed_bytes / 1_073_741_824.0)]
     TooLarge {
@@ -206,6 +214,11 @@ impl<const D: usize> Problem<D> {
     /// The lattice that the packing starts from.
     pub fn chosen_lattice(&self) -> Lattice {
         self.lattice.unwrap_or_else(|| Lattice::auto(D))
+    }
+
+    /// Γ of that lattice, undisturbed, where it fills the box. The problem must have passed [`Problem::check`].
+    pub fn perfect_gamma(&self) -> f64 {
+        self.filling().gamma(self.kernel, self.smoothing_length())
     }
 
     /// The lattice fitted to the box. The problem must have passed [`Problem::check`].

@@ -1,8 +1,13 @@
-//! The project's own tasks: `cargo xtask ci | tidy | reproduce-paper | balanced`.
+//! The project's own tasks: `cargo xtask ci | tidy | fuzz | reproduce-paper | balanced | compare`.
 
 mod balanced;
 mod balanced_rows;
 mod ci;
+mod compare;
+mod dial;
+mod fuzz;
+#[path = "../../geometry/src/read/mangle.rs"]
+mod mangle;
 mod reproduce;
 mod rows;
 mod tidy;
@@ -15,6 +20,8 @@ cargo xtask TASK
 
   ci                          everything that a change must pass
   tidy                        house rules: crate graph, file sizes, names, lints
+  fuzz [--inputs N] [--seed N] [--only stl|obj|ply|csv|dat|svg]
+                              damaged files (a million) for every reader of bodies
   reproduce-paper [--quick] [--only SCENE] [--data DIR] [--write]
                               the figures of paper 001, published beside ours;
                               --quick leaves out the long runs,
@@ -22,6 +29,8 @@ cargo xtask TASK
                               --write also writes docs/reproduction.md
   balanced [--quick] [--only SCENE] [--data DIR] [--write]
                               the balanced method against its bars; --write also writes docs/balanced.md
+  compare [--quick] [--only SCENE] [--write]
+                              every method on every scene; --write also writes docs/methods.md
 ";
 
 fn main() -> ExitCode {
@@ -30,10 +39,12 @@ fn main() -> ExitCode {
     let result = match arguments.first().map(String::as_str) {
         Some("ci") => ci::run(),
         Some("tidy") => tidy::run(&root()),
+        Some("fuzz") => fuzz::Settings::parse(rest).and_then(|s| fuzz::run(&s)),
         Some("reproduce-paper") => {
             reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))
         }
         Some("balanced") => reproduce::Settings::parse(rest).and_then(|s| balanced::run(&s)),
+        Some("compare") => reproduce::Settings::parse(rest).and_then(|s| compare::run(&s)),
         Some("help" | "--help" | "-h") => {
             print!("{USAGE}");
             Ok(())

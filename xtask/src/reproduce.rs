@@ -122,7 +122,7 @@ fn run_row(row: &Row, settings: &Settings) -> Result<Option<(Report, f64)>, Stri
     scene.packing.method = Method::Hybrid;
     // A body enlarged at the same ∆s is the body as it is at a smaller ∆s: densities have no unit.
     scene.spacing = row.spacing / row.enlarged;
-    scene.packing.h_over_spacing = row.h_over_spacing;
+    scene.packing.h_over_spacing = Some(row.h_over_spacing);
     scene.packing.velocity_tolerance = row.tolerance;
     // The bar is on the error, the published iterations stand beside ours.
     scene.packing.max_iterations = 100_000;

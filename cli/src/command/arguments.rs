@@ -49,11 +49,15 @@ Examples:
   sphpack pack wing.toml -o wing.csv -o wing.vtu --picture wing.svg --report wing.json
   sphpack pack bunny.stl --scale 10 --spacing 0.02             a mesh: 3-D
   sphpack pack outline.csv --spacing 0.05 --margin 0.5         rows of x,y: 2-D
+  sphpack pack naca0012.dat --spacing 0.01                     an airfoil (Selig or Lednicer): 2-D
+  sphpack pack drawing.svg --scale 0.001 --spacing 0.002       a drawing's closed paths: 2-D
   sphpack pack wing.toml --dry-run                             how many particles, how much memory and time
+
+A body's format is told from its content, whatever its name. It is: triangles (STL, binary or text); polygons (OBJ; PLY, binary or text); rows of x,y (a blank line ends a loop); an airfoil's coordinates; or the closed paths, polygons, rectangles, circles and ellipses of an SVG drawing, in the units of its viewBox and with y turned up: (x, y) becomes (x, -y).
 
 Progress goes to standard error, the closing summary to standard output. Ctrl-C stops packing and writes what there is; a second Ctrl-C ends at once.")]
 pub(super) struct PackArguments {
-    /// The scene (.toml), or a body: an STL mesh or a CSV outline
+    /// The scene (.toml), or a body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
     pub(super) input: PathBuf,
     /// Write particles here (.vtu, .csv); may be repeated [default: NAME.vtu in the working directory]
     #[arg(short, long, value_name = "FILE")]
@@ -107,7 +111,7 @@ Examples:
 
 Exit status: 0 where the body can be packed (after what pack mends by itself, or the repair asked for); 2 where not.")]
 pub(super) struct CheckArguments {
-    /// The body: an STL mesh or a CSV outline
+    /// The body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
     pub(super) body: PathBuf,
     /// Write the mended mesh here (binary .stl); nothing where it cannot be mended
     #[arg(long, value_name = "FILE")]

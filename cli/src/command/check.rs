@@ -135,6 +135,7 @@ fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) ->
         .zip(&examined.min)
         .map(|(b, a)| b - a)
         .collect();
+    line(&mut text, "read", examined.format.description());
     line(
         &mut text,
         "size",

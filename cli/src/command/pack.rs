@@ -102,7 +102,7 @@ fn scene(arguments: &PackArguments) -> Result<Scene, Error> {
         Scene::read(input)?
     } else {
         // A missing file is a nearer fault than a missing spacing.
-        crate::BodyFile::detect(input)?;
+        crate::body_format(input)?;
         let Some(spacing) = arguments.spacing else {
             return Err(Error::Usage(format!(
                 "{} is a body; say how fine to pack it: --spacing LENGTH",
@@ -170,8 +170,9 @@ fn dry_run(scene: &Scene, is_quiet: bool) -> Result<u8, Error> {
     let evaluations = typical_evaluations(&scene.packing);
     let seconds =
         estimate.seconds_per_evaluation * evaluations / rayon::current_num_threads() as f64;
+    let read = summary::read(&plan.read);
     say(&format!(
-        "  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {:.2} GiB of {:.1} GiB that are free\n  time       about {} for {evaluations} evaluations of all particles on {} threads, to a factor of two\nnothing was written (--dry-run)\n",
+        "{read}  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {:.2} GiB of {:.1} GiB that are free\n  time       about {} for {evaluations} evaluations of all particles on {} threads, to a factor of two\nnothing was written (--dry-run)\n",
         crate::picture::grouped(estimate.particles as usize),
         plan.dimension,
         crate::picture::grouped(estimate.frozen as usize),

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use sphpack_packing::Problem;
 
 use super::progress::duration;
+use crate::ReadBody;
 use crate::picture::grouped;
 use crate::report::Report;
 use crate::run::{Outcome, Packing};
@@ -12,7 +13,7 @@ use crate::run::{Outcome, Packing};
 /// A line for each stage.
 pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
     let report = &outcome.report;
-    let mut text = String::new();
+    let mut text = read(&outcome.read);
     let bodies = match &outcome.packing {
         Packing::Plane(solution) => bodies(&solution.problem),
         Packing::Space(solution) => bodies(&solution.problem),
@@ -77,6 +78,31 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
         &written.join(", "),
         Some(duration(report.seconds.output)),
     );
+    text
+}
+
+/// A line for each body that comes from a file: its format, how much there is of it, its size.
+pub(super) fn read(bodies: &[ReadBody]) -> String {
+    let mut text = String::new();
+    for (number, body) in bodies.iter().enumerate() {
+        let parts = match body.format.dimension() {
+            2 => "points",
+            _ => "triangles",
+        };
+        let size: Vec<String> = body.size.iter().map(|&length| short(length)).collect();
+        line(
+            &mut text,
+            if number == 0 { "read" } else { "" },
+            &format!(
+                "{}: {}, {} {parts}, {} scene units",
+                body.name,
+                body.format.description(),
+                grouped(body.count),
+                size.join(" × ")
+            ),
+            None,
+        );
+    }
     text
 }
 

@@ -236,17 +236,26 @@ impl Scene {
                 ),
             );
         }
-        let damps = packing.method == Method::Hybrid && packing.minimiser.is_none();
-        if damps && packing.finish == Finish::Consistent {
+        let is_hybrid = packing.method == Method::Hybrid;
+        let minimises = info.minimises || (is_hybrid && packing.minimiser.is_some());
+        if !minimises && packing.finish == Finish::Consistent {
             return fault(
                 &at("finish"),
-                "finish = \"consistent\" is for methods that minimise; the method \"hybrid\" damps and keeps its repulsion: use finish = \"even\", or add minimiser = \"lbfgs\"",
+                format!(
+                    "finish = \"consistent\" is for methods that minimise; the method \"{}\" does not: use finish = \"even\"{}",
+                    packing.method.name(),
+                    if is_hybrid {
+                        ", or add minimiser = \"lbfgs\""
+                    } else {
+                        ", or method = \"balanced\""
+                    }
+                ),
             );
         }
         ratio(
             &at("h_over_spacing"),
             "packing.h_over_spacing",
-            packing.h_over_spacing,
+            packing.h_over_spacing(),
         )?;
         positive(
             &at("velocity_tolerance"),
@@ -259,6 +268,16 @@ impl Scene {
                 format!(
                     "packing.mass_spread is {}; it must be between 0 and 1, such as 0.02 for ±2 %",
                     packing.mass_spread
+                ),
+            );
+        }
+        if let Some(levelling) = packing.levelling
+            && !(levelling >= 0.0 && levelling.is_finite())
+        {
+            return fault(
+                &at("levelling"),
+                format!(
+                    "packing.levelling is {levelling}; it must be 0 (none) or positive, such as 10"
                 ),
             );
         }

@@ -146,7 +146,9 @@ fn check_shape(shape: &Shape, called: &str, at: &[Key]) -> Checked {
         Shape::File(path) if path.as_os_str().is_empty() => {
             return fault(
                 at,
-                format!("{called}: file is empty; write the name of an STL or CSV file"),
+                format!(
+                    "{called}: file is empty; write the name of a mesh or an outline, such as body.stl or outline.csv"
+                ),
             );
         }
         _ => {}

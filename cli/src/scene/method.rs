@@ -1,6 +1,7 @@
 //! The methods that a scene can name.
 
 use serde::{Deserialize, Serialize};
+use sphpack_kernels::KernelKind;
 
 /// How particles are settled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -11,14 +12,16 @@ pub enum Method {
     Balanced,
     /// Capture the surface, then settle by damped dynamics (001 §3.1).
     Hybrid,
-    /// Free particles against fixed boundary nodes (001 §3.2).
+    /// A solid of offset layers, fluid packed around it (001 §3.2).
     Standard,
-    /// Boundary and free particles in turn (001 §3.3).
+    /// Inside and outside packed apart, then together (001 §3.3).
     Coupled,
     /// Level-set relaxation with surface bounding (004).
     Relaxation,
     /// Relaxation of bodies and fluid together (004).
     Complex,
+    /// The lattice clipped by the bodies (000 §3).
+    Clipped,
 }
 
 /// A line of the table of methods.
@@ -30,47 +33,73 @@ pub struct MethodInfo {
     pub name: &'static str,
     /// Whether this version has it.
     pub is_available: bool,
+    /// The dimensions it works in.
+    pub dimensions: &'static [usize],
+    /// Whether it minimises an energy by itself.
+    pub minimises: bool,
+    /// Its own kernel, and smoothing length over ∆s.
+    pub kernel: (KernelKind, f64),
     /// A line for people.
     pub summary: &'static str,
 }
 
+/// What most methods are.
+const USUAL: MethodInfo = MethodInfo {
+    method: Method::Balanced,
+    name: "balanced",
+    is_available: true,
+    dimensions: &[2, 3],
+    minimises: false,
+    kernel: (KernelKind::Quintic, 1.2),
+    summary: "",
+};
+
 /// Every method that has a name.
-pub const METHODS: [MethodInfo; 6] = [
+pub const METHODS: [MethodInfo; 7] = [
     MethodInfo {
-        method: Method::Balanced,
-        name: "balanced",
-        is_available: true,
+        minimises: true,
         summary: "surface first, counts balanced, then a minimiser (the default)",
+        ..USUAL
     },
     MethodInfo {
         method: Method::Hybrid,
         name: "hybrid",
-        is_available: true,
         summary: "captures the surface, then settles by damped dynamics (paper 001)",
+        ..USUAL
     },
     MethodInfo {
         method: Method::Standard,
         name: "standard",
-        is_available: false,
-        summary: "free particles against fixed boundary nodes",
+        dimensions: &[2],
+        summary: "a solid of offset layers, fluid packed around it; 2-D (paper 001)",
+        ..USUAL
     },
     MethodInfo {
         method: Method::Coupled,
         name: "coupled",
-        is_available: false,
-        summary: "boundary and free particles in turn",
+        kernel: (KernelKind::Cubic, 1.0),
+        summary: "inside and outside packed apart, then together (paper 001)",
+        ..USUAL
     },
     MethodInfo {
         method: Method::Relaxation,
         name: "relaxation",
         is_available: false,
         summary: "level-set relaxation with surface bounding",
+        ..USUAL
     },
     MethodInfo {
         method: Method::Complex,
         name: "complex",
         is_available: false,
         summary: "relaxation of bodies and fluid together",
+        ..USUAL
+    },
+    MethodInfo {
+        method: Method::Clipped,
+        name: "clipped",
+        summary: "the lattice as it is, clipped by the bodies: what to compare with",
+        ..USUAL
     },
 ];
 
@@ -86,6 +115,11 @@ impl Method {
     /// The name that scenes and reports use.
     pub fn name(self) -> &'static str {
         self.info().name
+    }
+
+    /// Its own kernel, and smoothing length over ∆s.
+    pub fn kernel(self) -> (KernelKind, f64) {
+        self.info().kernel
     }
 
     /// The method called `name`.

@@ -199,11 +199,15 @@ pub enum Frozen {
 pub struct PackingSpec {
     /// The method.
     pub method: Method,
-    /// The kernel that packs.
-    #[serde(with = "named::kernel")]
-    pub kernel: KernelKind,
-    /// Its smoothing length over ∆s.
-    pub h_over_spacing: f64,
+    /// The kernel that packs; `None` is the method's own ([`Method::kernel`]).
+    #[serde(
+        with = "named::optional_kernel",
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub kernel: Option<KernelKind>,
+    /// Its smoothing length over ∆s; `None` is the method's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub h_over_spacing: Option<f64>,
     /// The starting lattice; `None` is "auto".
     #[serde(with = "named::lattice")]
     pub lattice: Option<Lattice>,
@@ -214,12 +218,16 @@ pub struct PackingSpec {
     /// The minimiser; `None` is the method's own: "lbfgs" for balanced, none for hybrid, which damps.
     #[serde(with = "named::minimiser", skip_serializing_if = "Option::is_none")]
     pub minimiser: Option<MinimiserKind>,
-    /// Methods that minimise stop where the largest force times h falls below this; `None` is 10⁻³ for an even finish
-    /// (3·10⁻⁴ with corrected masses), 10⁻⁵ for a consistent one.
+    /// Methods that minimise stop where the largest force times h falls below this; `None` is 10⁻³ for an even finish,
+    /// 10⁻⁵ for a consistent one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub residual_tolerance: Option<f64>,
     /// The finish of methods that minimise.
     pub finish: Finish,
+    /// How strongly an even finish levels the density, κ of p = p_b (1 + κ (Γ − Γ₀)); `None` is 10, with corrected
+    /// masses 200. A consistent finish does not level.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub levelling: Option<f64>,
     /// Which particles settle, with the method balanced.
     pub band: BandWidth,
     /// What particles weigh.
@@ -232,24 +240,38 @@ pub struct PackingSpec {
     pub seed: u64,
 }
 
-/// The residual tolerance of an even finish whose masses are corrected, unless the scene says otherwise.
-const CORRECTED_TOLERANCE: f64 = 3e-4;
+/// The levelling of an even finish whose masses are corrected, unless the scene says otherwise: where masses are to
+/// even out what is left, less should be left.
+const CORRECTED_LEVELLING: f64 = 200.0;
 
 impl PackingSpec {
+    /// The kernel that packs.
+    pub fn kernel(&self) -> KernelKind {
+        self.kernel.unwrap_or(self.method.kernel().0)
+    }
+
+    /// Its smoothing length over ∆s.
+    pub fn h_over_spacing(&self) -> f64 {
+        self.h_over_spacing.unwrap_or(self.method.kernel().1)
+    }
+
     /// How methods that minimise bring particles to rest.
     pub fn settling(&self) -> Settling {
+        let defaults = Settling::default();
+        let levelling = match self.masses {
+            Masses::Equal => defaults.levelling,
+            Masses::Corrected => CORRECTED_LEVELLING,
+        };
         Settling {
             minimiser: self.minimiser.unwrap_or_default(),
             finish: match self.finish {
                 Finish::Even => sphpack_packing::Finish::Even,
                 Finish::Consistent => sphpack_packing::Finish::Consistent,
             },
-            // Where masses are to even out what is left, less should be left.
-            residual_tolerance: self.residual_tolerance.or((self.masses == Masses::Corrected
-                && self.finish == Finish::Even)
-                .then_some(CORRECTED_TOLERANCE)),
+            residual_tolerance: self.residual_tolerance,
+            levelling: self.levelling.unwrap_or(levelling),
             max_evaluations: self.max_iterations,
-            ..Settling::default()
+            ..defaults
         }
     }
 }
@@ -259,14 +281,15 @@ impl Default for PackingSpec {
         let hybrid = Hybrid::default();
         Self {
             method: Method::default(),
-            kernel: KernelKind::Quintic,
-            h_over_spacing: 1.2,
+            kernel: None,
+            h_over_spacing: None,
             lattice: None,
             frozen: Frozen::default(),
             velocity_tolerance: hybrid.velocity_tolerance,
             minimiser: None,
             residual_tolerance: None,
             finish: Finish::default(),
+            levelling: None,
             band: BandWidth::default(),
             masses: Masses::default(),
             mass_spread: 0.02,
@@ -350,10 +373,10 @@ impl Scene {
     /// The kernel and h/∆s that judge the result.
     pub fn judge(&self) -> (KernelKind, f64) {
         (
-            self.quality.kernel.unwrap_or(self.packing.kernel),
+            self.quality.kernel.unwrap_or(self.packing.kernel()),
             self.quality
                 .h_over_spacing
-                .unwrap_or(self.packing.h_over_spacing),
+                .unwrap_or(self.packing.h_over_spacing()),
         )
     }
 

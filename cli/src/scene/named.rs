@@ -10,24 +10,6 @@ use sphpack_packing::{Lattice, MinimiserKind};
 
 use super::nearest::advice;
 
-/// Kernels by name.
-pub(super) mod kernel {
-    use super::*;
-
-    pub(in crate::scene) fn serialize<S: Serializer>(
-        kernel: &KernelKind,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.serialize_str(kernel.name())
-    }
-
-    pub(in crate::scene) fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<KernelKind, D::Error> {
-        kernel_by_name(&String::deserialize(from)?).map_err(D::Error::custom)
-    }
-}
-
 /// Kernels by name, or none.
 pub(super) mod optional_kernel {
     use super::*;
@@ -42,7 +24,9 @@ pub(super) mod optional_kernel {
     pub(in crate::scene) fn deserialize<'de, D: Deserializer<'de>>(
         from: D,
     ) -> Result<Option<KernelKind>, D::Error> {
-        kernel::deserialize(from).map(Some)
+        kernel_by_name(&String::deserialize(from)?)
+            .map(Some)
+            .map_err(D::Error::custom)
     }
 }
 

@@ -98,7 +98,7 @@ pub enum Shape {
         /// Radius of the tube.
         minor: f64,
     },
-    /// A mesh (3-D) or an outline (2-D), relative to the scene's file.
+    /// A mesh (3-D: STL, OBJ, PLY) or an outline (2-D: rows of x,y, an airfoil, SVG), relative to the scene's file.
     File(PathBuf),
 }
 
@@ -181,7 +181,7 @@ pub const SHAPES: [ShapeInfo; 12] = {
         shape(
             "file",
             "2-D, 3-D",
-            "{ file = \"body.stl\" } (mesh, 3-D) or { file = \"outline.csv\" } (rows of x,y)",
+            "{ file = \"body.stl\" } (3-D: .stl, .obj, .ply) or { file = \"outline.csv\" } (2-D: .csv, .dat, .svg)",
         ),
     ]
 };

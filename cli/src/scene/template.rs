@@ -20,7 +20,8 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # shape = { polygon = { points = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]] } }
 # shape = { naca = { digits = "0015", chord = 1.0 } }
 # shape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }
-# shape = { file = "body.stl" }  # a closed mesh (.stl, 3-D) or an outline (.csv: rows of x,y); relative to this file
+# shape = { file = "body.stl" }  # a closed mesh (.stl, .obj, .ply: 3-D) or an outline (.csv: rows of x,y, .dat: an
+                                 # airfoil, .svg: a drawing's closed paths: 2-D); relative to this file
 # scale = 1.0                    # the body is scaled, then turned, then moved, about the origin
 # rotate_degrees = 0.0           # 2-D, counter-clockwise
 # rotate = { axis = [0.0, 0.0, 1.0], degrees = 0.0 }   # 3-D
@@ -41,6 +42,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # lattice = "auto"               # the start: `sphpack list lattices`
 # frozen = "lattice"             # particles outside the box: the lattice continued, or a "square" ring
 # finish = "even"                # even: pairs stay apart | consistent: no net pressure force on any free particle
+# levelling = 10                 # even: how strongly the density is levelled against leftover forces; 0: not at all
 # residual_tolerance = 1e-3      # stop where no force times h is larger (methods that minimise; consistent: 1e-5)
 # velocity_tolerance = 1e-4      # stop where nothing is faster (methods that damp: hybrid)
 # minimiser = "lbfgs"            # lbfgs | fire | damped; hybrid has none unless one is named

@@ -290,6 +290,7 @@ fn numbers_out_of_range_are_named() {
         ("method = \"standard\"", "not in this version"),
         ("minimiser = \"newton\"", "no minimiser is called"),
         ("mass_spread = 1.5", "mass_spread is 1.5"),
+        ("levelling = -1", "levelling is -1"),
     ] {
         refuse(&format!("{GOOD}[packing]\n{line}"), 10, &[part]);
     }

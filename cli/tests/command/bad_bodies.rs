@@ -105,26 +105,86 @@ fn outline_files() {
 }
 
 #[test]
+fn other_meshes() {
+    let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    refuse(
+        "open.obj",
+        format!("{three}f 1 2 3\n"),
+        &["not closed", "close the holes"],
+    );
+    refuse(
+        "far.obj",
+        format!("{three}f 1 2 4\n"),
+        &["line 4", "vertex 4", "export"],
+    );
+    refuse("points.obj", three, &["no faces", "export"]);
+    refuse("cut.ply", "ply\nformat ascii 1.0\n", &["cut off", "export"]);
+    refuse(
+        "cloud.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
+        &["1 points", "closed surface"],
+    );
+    refuse(
+        "lying.ply",
+        "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
+        &["byte 124", "cut off", "export"],
+    );
+}
+
+#[test]
+fn other_outlines() {
+    refuse(
+        "count.dat",
+        "NACA 0012\n 61. 61.\n\n0 0\n1 0\n",
+        &["line 2", "61", "2 follow"],
+    );
+    refuse(
+        "open.svg",
+        "<svg>\n<path d='M0 0 1 1 1 0'/></svg>",
+        &["line 2", "not closed"],
+    );
+    refuse(
+        "clone.svg",
+        "<svg>\n<use href='#a'/></svg>",
+        &["line 2", "unlink"],
+    );
+    refuse("cut.svg", "<svg><path", &["line 1", "save it again"]);
+    refuse("empty.svg", "<svg/>", &["no closed paths"]);
+}
+
+#[test]
 fn other_formats_say_what_to_do() {
-    refuse(
-        "body.obj",
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-        &["OBJ files are not read yet", "STL"],
-    );
-    refuse(
-        "body.ply",
-        "ply\nformat ascii 1.0\n",
-        &["PLY files are not read yet", "STL"],
-    );
-    refuse(
-        "slat.dat",
-        "0 0\n1 0\n0 1\n",
-        &[".dat files are not read yet", ".csv"],
-    );
     refuse(
         "body.step",
         "ISO-10303-21;\n",
-        &["neither", "export the body as .stl or .csv"],
+        &["STEP", "export the body as .stl, .obj or .ply"],
+    );
+    refuse(
+        "body.3mf",
+        "PK\x03\x04",
+        &["archive", "export the body as .stl"],
+    );
+    refuse(
+        "body.dae",
+        "<COLLADA/>",
+        &["no SVG", "export the body as .stl"],
+    );
+    refuse(
+        "body.txt",
+        "a body\n",
+        &["no mesh (3-D) and no outline (2-D)"],
+    );
+    // A mesh among outlines.
+    let desk = Desk::new()
+        .with("square.csv", "0,0\n1,0\n1,1\n0,1\n")
+        .with("cube.stl", stl(&cube()))
+        .with(
+            "scene.toml",
+            "spacing = 0.1\n[domain]\nmargin = 0.5\n[[body]]\nshape = { file = \"square.csv\" }\n[[body]]\nshape = { file = \"cube.stl\" }\n",
+        );
+    desk.refuse(
+        &["pack", "scene.toml"],
+        &["cube.stl, an STL mesh", "3-dimensional", "2-dimensional"],
     );
 }
 

@@ -3,6 +3,7 @@
 mod bad_bodies;
 mod bad_outputs;
 mod bad_scenes;
+mod body_formats;
 mod checking;
 mod dirty_meshes;
 mod good_runs;

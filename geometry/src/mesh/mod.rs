@@ -3,7 +3,6 @@
 mod features;
 mod inset;
 mod normals;
-mod read;
 mod strew;
 mod surface;
 #[cfg(test)]

@@ -3,7 +3,6 @@
 mod check;
 mod inside;
 mod offset;
-mod read;
 mod shapes;
 mod surface;
 #[cfg(test)]
@@ -55,8 +54,8 @@ pub struct Outline {
 
 impl Outline {
     /// The outline of one or several loops. The order of the points and of the loops is free: orientation follows
-    /// from nesting (even-odd). Repeated points, also the first at the end, are removed. O(n log n) for n points in
-    /// few loops.
+    /// from nesting (even-odd). Repeated points, also the first at the end, are removed. O(n log n) for n points
+    /// that spread out.
     ///
     /// # Errors
     /// [`GeometryError::TooFewPoints`], [`GeometryError::NotFinite`], [`GeometryError::NoArea`], and
@@ -87,11 +86,18 @@ impl Outline {
         let mut loops: Vec<Vec<[f64; 2]>> = self.loops().map(<[_]>::to_vec).collect();
         let mut turned = false;
         for k in 0..loops.len() {
-            let inside_of = (0..loops.len())
-                .filter(|&other| other != k && crossing_number(&loops[other], loops[k][0]) % 2 == 1)
-                .count();
+            // It is inside an odd number of others just where a ray crosses their sides an odd number of times.
+            let (p, own) = (loops[k][0], self.starts[k]..self.starts[k + 1]);
+            let mut is_hole = false;
+            self.bvh.visit(
+                |b| b.min[1] <= p[1] && p[1] <= b.max[1] && p[0] <= b.max[0],
+                |i| {
+                    let (a, b) = (self.points[i], self.points[self.next[i] as usize]);
+                    is_hole ^= !own.contains(&i) && inside::crosses(a, b, p);
+                },
+            );
             let counter_clockwise = crate::segment::signed_area(&loops[k]) > 0.0;
-            if counter_clockwise != (inside_of % 2 == 0) {
+            if counter_clockwise == is_hole {
                 // The first point stays the first.
                 loops[k][1..].reverse();
                 turned = true;

@@ -425,3 +425,32 @@ fn outlines_from_text() {
         "{missing}"
     );
 }
+
+#[test]
+fn many_loops_nest() {
+    // A board of square rings, each with a square in its hole, all drawn clockwise.
+    let square = |x: f64, y: f64, r: f64| {
+        vec![
+            [x - r, y - r],
+            [x - r, y + r],
+            [x + r, y + r],
+            [x + r, y - r],
+        ]
+    };
+    let count = 100;
+    let loops = (0..count * count)
+        .flat_map(|k| {
+            let (x, y) = (f64::from(k % count), f64::from(k / count));
+            [0.4, 0.3, 0.1].map(|r| square(x, y, r))
+        })
+        .collect();
+    let outline = Outline::new(loops).unwrap();
+    let areas: Vec<f64> = outline.loops().map(crate::segment::signed_area).collect();
+    assert!(
+        areas
+            .chunks(3)
+            .all(|a| a[0] > 0.0 && a[1] < 0.0 && a[2] > 0.0)
+    );
+    let one = 0.64 - 0.36 + 0.04;
+    assert!((outline.volume() / (f64::from(count * count) * one) - 1.0).abs() < 1e-9);
+}

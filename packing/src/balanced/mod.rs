@@ -77,6 +77,7 @@ impl Balanced {
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         course.enter(Phase::Settling);
+        let perfect_gamma = problem.perfect_gamma();
         let mut forces = Forces::of(problem, settling.early_repulsion(problem.spacing));
         let mut stop_reason = StopReason::Converged;
         for round in 0..=MOST_WIDENINGS {
@@ -89,7 +90,8 @@ impl Balanced {
                 problem.spacing,
                 problem.support(),
             );
-            stop_reason = settling.run(&mut landscape, &mut course, round > 0);
+            landscape.keep_sides();
+            stop_reason = settling.run(&mut landscape, &mut course, perfect_gamma, round > 0);
             forces = landscape.into_forces();
             part.write_back(&mut particles);
             let is_settled = stop_reason == StopReason::Converged;

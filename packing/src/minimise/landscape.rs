@@ -5,18 +5,15 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sphpack_neighbors::point;
 
+use super::sides::Sides;
 use super::vectors;
-use crate::forces::Forces;
+use crate::forces::{Forces, Levelling};
 use crate::on_surface::OnSurface;
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::repulsion::Repulsion;
 
-/// A surface that turns by more than 8° (this cosine) within twice this step, in ∆s, has a crease there.
-const CREASE_STEP: f64 = 1e-2;
-const CREASE_COSINE: f64 = 0.99;
-
-/// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R over the places of the mobile particles, and its forces −∇E;
+/// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R, and that of a [`Levelling`], over the places of the mobile particles, and its forces −∇E;
 /// boundary particles stay on their surfaces, fixed and frozen ones where they are.
 ///
 /// E is per ∆s^D and p_b; the force on a particle of that volume is its acceleration for p_b = 1, per scene unit.
@@ -27,10 +24,12 @@ pub struct Landscape<'a, const D: usize> {
     surfaces: &'a [ParticleSurface<D>],
     forces: Forces<D>,
     on_surface: OnSurface<D>,
+    sides: Sides<D>,
     spacing: f64,
     smoothing_length: f64,
     reach: f64,
     mobile: Vec<u32>,
+    is_surface_held: bool,
     energy: f64,
     force: Vec<[f64; D]>,
     projection_seconds: f64,
@@ -59,9 +58,11 @@ impl<'a, const D: usize> Landscape<'a, D> {
             surfaces,
             forces,
             on_surface,
+            sides: Sides::default(),
             spacing,
             reach,
             mobile,
+            is_surface_held: false,
             energy: 0.0,
             projection_seconds: 0.0,
         };
@@ -135,6 +136,14 @@ impl<'a, const D: usize> Landscape<'a, D> {
         self.projection_seconds
     }
 
+    /// From now on free particles stay on the side of every surface where they are, 0.4 ∆s away from it unless they
+    /// are nearer now. Costs a look at every particle near a surface.
+    pub fn keep_sides(&mut self) {
+        let start = Instant::now();
+        self.sides = Sides::of(self.particles, self.surfaces, self.spacing);
+        self.projection_seconds += start.elapsed().as_secs_f64();
+    }
+
     /// Writes the places of the mobile particles.
     pub fn places(&self, out: &mut Vec<[f64; D]>) {
         out.clear();
@@ -161,6 +170,11 @@ impl<'a, const D: usize> Landscape<'a, D> {
         self.evaluate();
     }
 
+    /// Changes the levelling, which changes the energy. Needs to be followed by an evaluation.
+    pub fn set_levelling(&mut self, levelling: Option<Levelling>) {
+        self.forces.levelling = levelling;
+    }
+
     /// `v` of every mobile particle without its part along the normal of the surface that it sits on.
     pub fn make_tangential(&self, v: &mut [[f64; D]]) {
         v.par_iter_mut()
@@ -169,48 +183,21 @@ impl<'a, const D: usize> Landscape<'a, D> {
             .for_each(|(v, &i)| *v = self.on_surface.tangential(i as usize, *v));
     }
 
-    /// Holds boundary particles where they are from now on.
+    /// Holds boundary particles where they are from now on. Needs to be followed by an evaluation.
     pub fn hold_surface(&mut self) {
         let kind = &self.particles.kind;
         self.mobile.retain(|&i| kind[i as usize] == Kind::Free);
         self.force.resize(self.mobile.len(), [0.0; D]);
-        self.evaluate();
-    }
-
-    /// Holds boundary particles that sit on a crease of their surface where they are: there the force jumps from one
-    /// side to the other, so that it never vanishes and line searches creep. Needs to be followed by an evaluation.
-    pub fn hold_on_creases(&mut self) {
-        let (particles, surfaces) = (&*self.particles, self.surfaces);
-        let step = CREASE_STEP * self.spacing;
-        let is_smooth = |&i: &u32| {
-            let i = i as usize;
-            if particles.kind[i] != Kind::Boundary {
-                return true;
-            }
-            let surface = &surfaces[usize::from(particles.body[i].unwrap_or(0))].surface;
-            (0..D).all(|k| {
-                let normal = |shift: f64| {
-                    let mut p = particles.position[i];
-                    p[k] += shift;
-                    surface.closest(p).normal
-                };
-                point::dot(normal(step), normal(-step)) > CREASE_COSINE
-            })
-        };
-        self.mobile = self
-            .mobile
-            .par_iter()
-            .with_min_len(256)
-            .copied()
-            .filter(is_smooth)
-            .collect();
-        self.force.resize(self.mobile.len(), [0.0; D]);
+        self.is_surface_held = true;
     }
 
     fn project(&mut self) {
         let start = Instant::now();
-        self.on_surface
-            .project(self.particles, self.surfaces, self.reach);
+        if !self.is_surface_held {
+            self.on_surface
+                .project(self.particles, self.surfaces, self.reach);
+        }
+        self.sides.keep(self.particles, self.surfaces);
         self.projection_seconds += start.elapsed().as_secs_f64();
     }
 
@@ -230,5 +217,13 @@ impl<'a, const D: usize> Landscape<'a, D> {
                     on_surface.tangential(i, forces.weighted_acceleration(i, volume[i] / unit))
                 };
             });
+        // What holds a particle on its floor takes the force towards the surface.
+        for (i, away) in self.sides.held() {
+            if let Ok(place) = self.mobile.binary_search(&(i as u32))
+                && point::dot(self.force[place], away) < 0.0
+            {
+                self.force[place] = point::reject(self.force[place], away);
+            }
+        }
     }
 }

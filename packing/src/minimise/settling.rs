@@ -2,6 +2,7 @@
 
 use super::{Landscape, MinimiserKind, Step};
 use crate::course::Course;
+use crate::forces::Levelling;
 use crate::packed::StopReason;
 use crate::repulsion::{REACH_OVER_SPACING, Repulsion, STRENGTH};
 
@@ -11,11 +12,12 @@ use crate::repulsion::{REACH_OVER_SPACING, Repulsion, STRENGTH};
 /// cannot both be had: a repulsion that holds pairs apart is itself a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Finish {
-    /// A weak repulsion stays on: pairs keep 0.9 ∆s, the pressure's residual is below 10⁻³.
+    /// A weak repulsion stays on, which keeps pairs 0.9 ∆s apart, and the density is levelled. Some 10⁻³ of residual
+    /// are the price.
     #[default]
     Even,
-    /// Free particles end where the pressure's own forces vanish (zero-order consistency). Surface particles are held
-    /// where an early repulsion spread them, and pairs may come as near as 0.7 ∆s.
+    /// Free particles end where the background pressure's own forces vanish (zero-order consistency). Pairs may come
+    /// as near as 0.7 ∆s.
     Consistent,
 }
 
@@ -29,7 +31,8 @@ impl Finish {
     }
 }
 
-/// Brings particles to rest: under a strong repulsion first, which sorts out the worst, then as the finish asks.
+/// Brings particles to rest: under a strong repulsion first, which sorts out the worst and spreads surface particles
+/// along their surface, then as the finish asks, with surface particles held where they are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settling {
     /// The minimiser.
@@ -40,10 +43,13 @@ pub struct Settling {
     pub residual_tolerance: Option<f64>,
     /// Give up after this many evaluations, counted from where settling begins.
     pub max_evaluations: usize,
-    /// Evaluations under the strong repulsion, at most.
+    /// Evaluations under the strong repulsion, at most, times the minimiser's [`MinimiserKind::pace`].
     pub early_evaluations: usize,
     /// C of k_r = C ∆s p_b: at first (001's), and at the end of an even finish.
     pub repulsion: [f64; 2],
+    /// κ of the [`Levelling`] at the end of an even finish; 0 is none. A consistent finish has none: a pressure that
+    /// differs from place to place is a residual.
+    pub levelling: f64,
 }
 
 impl Default for Settling {
@@ -55,6 +61,7 @@ impl Default for Settling {
             max_evaluations: 20_000,
             early_evaluations: 60,
             repulsion: [STRENGTH, 0.001],
+            levelling: 10.0,
         }
     }
 }
@@ -95,20 +102,26 @@ impl Settling {
         }
     }
 
-    fn begin_end<const D: usize>(&self, landscape: &mut Landscape<'_, D>) {
+    fn last_levelling(&self, perfect_gamma: f64) -> Option<Levelling> {
         match self.finish {
-            Finish::Even => landscape.hold_on_creases(),
-            Finish::Consistent => landscape.hold_surface(),
+            Finish::Even => Levelling::new(self.levelling, perfect_gamma),
+            Finish::Consistent => None,
         }
+    }
+
+    fn begin_end<const D: usize>(&self, landscape: &mut Landscape<'_, D>, perfect_gamma: f64) {
+        landscape.hold_surface();
+        landscape.set_levelling(self.last_levelling(perfect_gamma));
         landscape.set_repulsion(self.last_repulsion(landscape.spacing()));
     }
 
     /// Settles the landscape's particles; its repulsion should be [`Settling::early_repulsion`]. With `is_again` they
-    /// have been through the strong repulsion before.
+    /// have been through the strong repulsion before. `perfect_gamma` is Γ of the undisturbed lattice.
     pub(crate) fn run<const D: usize>(
         &self,
         landscape: &mut Landscape<'_, D>,
         course: &mut Course<'_>,
+        perfect_gamma: f64,
         is_again: bool,
     ) -> StopReason {
         let mut minimiser = self.minimiser.build::<D>();
@@ -116,7 +129,7 @@ impl Settling {
         let tolerance = self.tolerance();
         let mut early = !is_again;
         if is_again {
-            self.begin_end(landscape);
+            self.begin_end(landscape, perfect_gamma);
         }
         let mut noted = 0;
         let (mut lowest, mut energy_then, mut lowest_at) = (f64::INFINITY, f64::INFINITY, begin);
@@ -139,11 +152,11 @@ impl Settling {
                 course.note(landscape.forces(), landscape.particles());
             }
             if early {
-                let over = evaluations - begin >= self.early_evaluations;
+                let over = evaluations - begin >= self.early_evaluations * self.minimiser.pace();
                 let settled = residual < EARLY_END * tolerance;
                 if over || settled || step == Step::Stuck {
                     early = false;
-                    self.begin_end(landscape);
+                    self.begin_end(landscape, perfect_gamma);
                     minimiser.reset();
                     (lowest, lowest_at) = (f64::INFINITY, evaluations);
                     energy_then = landscape.energy();

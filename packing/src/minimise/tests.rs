@@ -7,7 +7,7 @@ use sphpack_geometry::{Cuboid, Surface};
 use sphpack_neighbors::{Domain, point};
 
 use super::*;
-use crate::forces::Forces;
+use crate::forces::{Forces, Levelling};
 use crate::packed::ParticleSurface;
 use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::seed;
@@ -66,7 +66,9 @@ fn with_landscape<const D: usize, R>(
     work: impl FnOnce(&mut Landscape<'_, D>) -> R,
 ) -> R {
     let (problem, mut particles, surfaces) = shaken::<D>(shake, state);
-    let forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let mut forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    // Every other time.
+    forces.levelling = Levelling::new(10.0 * (state % 2) as f64, problem.perfect_gamma());
     let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
     work(&mut landscape)
 }
@@ -192,11 +194,80 @@ fn every_minimiser_goes_down_and_holds_what_is_held() {
 }
 
 #[test]
+fn levelling_acts_where_it_is_told() {
+    with_landscape::<2, _>(0.1, 8, |landscape| {
+        let unevenness = |landscape: &Landscape<'_, 2>| -> f64 {
+            let particles = landscape.particles();
+            (0..particles.len())
+                .filter(|&i| particles.kind[i] != Kind::Frozen)
+                .map(|i| (landscape.forces().gamma(i) - 1.0).powi(2))
+                .sum()
+        };
+        let settle = |landscape: &mut Landscape<'_, 2>| {
+            let mut lbfgs = Lbfgs::default();
+            for _ in 0..60 {
+                lbfgs.step(landscape);
+            }
+        };
+        settle(landscape);
+        let without = unevenness(landscape);
+        landscape.set_levelling(Levelling::new(30.0, 1.0));
+        settle(landscape);
+        let with = unevenness(landscape);
+        assert!(with < 0.7 * without, "{with} {without}");
+    });
+}
+
+/// A body in which the pressure is far too high keeps its particles.
+#[test]
+fn no_particle_slips_through_a_surface_that_is_watched() {
+    let surface = Cuboid::new([0.25; 2], [0.75; 2]).expect("a box");
+    let problem = Problem::new(Domain::new([0.0; 2], [1.0; 2]), 0.05);
+    let surfaces = vec![ParticleSurface {
+        surface: Arc::new(surface.clone()),
+        target_count: 0,
+    }];
+    let slipped = |is_watched: bool| {
+        let mut particles = seed(&problem).expect("a sound problem").particles;
+        for i in 0..particles.len() {
+            let hit = surface.closest(particles.position[i]);
+            if particles.kind[i] == Kind::Free && hit.distance.abs() < 0.6 * problem.spacing {
+                particles.position[i] = hit.point;
+                particles.kind[i] = Kind::Boundary;
+                particles.body[i] = Some(0);
+            } else if hit.distance < 0.0 {
+                particles.volume[i] *= 1.5;
+            }
+        }
+        let before = particles.position.clone();
+        let forces = Forces::of(&problem, Repulsion::new(problem.spacing, 0.001));
+        let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 1.0);
+        if is_watched {
+            landscape.keep_sides();
+        }
+        landscape.hold_surface();
+        landscape.set_repulsion(Repulsion::new(problem.spacing, 0.001));
+        let mut lbfgs = Lbfgs::default();
+        for _ in 0..200 {
+            lbfgs.step(&mut landscape);
+        }
+        let after = landscape.particles();
+        (0..after.len())
+            .filter(|&i| after.kind[i] == Kind::Free)
+            .filter(|&i| surface.inside(before[i]) != surface.inside(after.position[i]))
+            .count()
+    };
+    assert!(slipped(false) > 0);
+    assert_eq!(slipped(true), 0);
+}
+
+#[test]
 fn a_perfect_lattice_stays() {
     let problem = Problem::new(Domain::new([0.0; 2], [1.0; 2]), 0.1);
     let mut particles = seed(&problem).expect("a sound problem").particles;
     let before = particles.position.clone();
-    let forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let mut forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    forces.levelling = Levelling::new(10.0, problem.perfect_gamma());
     let mut landscape = Landscape::new(&mut particles, &[], forces, problem.spacing, 1.0);
     assert!(landscape.residual() < 1e-10);
     for kind in MinimiserKind::ALL {

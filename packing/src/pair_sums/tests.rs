@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use sphpack_kernels::{Kernel, KernelKind, WithKernel};
 use sphpack_neighbors::{CellList, Domain, Slot, point};
 
-use super::{PairLoop, Shells, Sums, unit};
+use super::{GradientLoop, PairLoop, Shells, Sums, unit};
 use crate::repulsion::{Repulsion, STRENGTH};
 
 /// Point sets in the unit box: random, shaken lattice, lattice, coincident.
@@ -142,6 +142,15 @@ fn check_with<const D: usize>(
         repulsion,
     };
     let expected = kind.with(h, &plain);
+    // Of the targets alone, with other weights, as the second pass has it.
+    let others: Vec<f64> = (0..positions.len())
+        .map(|i| f64::from(u8::from(Plain::<D>::is_target(i))) * weights[i] * (i as f64).sin())
+        .collect();
+    let field = Plain {
+        weights: &others,
+        ..plain
+    };
+    let of_targets = kind.with(h, &field);
     let reach = repulsion.reach();
     let mut list = CellList::new(domain, kind.support_over_h() * h)
         .with_skin(0.2 * h)
@@ -150,7 +159,18 @@ fn check_with<const D: usize>(
     let mut slots: Vec<Slot> = Vec::new();
     let unit = unit(h);
     list.gather(positions, weights, unit, &mut slots);
+    let mut reweighted = slots.clone();
+    list.weigh(&others, &mut reweighted);
     for level in levels() {
+        let mut gradients = vec![[0.0; D]; list.targets()];
+        let second = GradientLoop {
+            list: &list,
+            slots: &reweighted,
+            unit,
+            level,
+            out: &mut gradients,
+        };
+        kind.with(h * unit, second);
         let mut out = vec![Sums::ZERO; list.targets()];
         let pairs = PairLoop {
             list: &list,
@@ -168,6 +188,13 @@ fn check_with<const D: usize>(
                 continue;
             };
             let ours = out[slot];
+            for k in 0..D {
+                let off = (gradients[slot][k] - of_targets[i].gradient[k]).abs();
+                prop_assert!(
+                    off <= 1e-13 * expected.gamma / h,
+                    "second pass, {level:?}: {off}"
+                );
+            }
             let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-13 * scale;
             let says = format!("{level:?}, {kind}, particle {i}: {ours:?}, not {expected:?}");
             prop_assert!(near(ours.gamma, expected.gamma, expected.gamma), "{says}");

@@ -1,0 +1,68 @@
+//! Outlines from files of any format.
+
+use std::path::Path;
+
+use super::BodyFormat;
+use crate::{GeometryError, Outline};
+
+impl Outline {
+    /// Reads an outline: rows of x,y, an airfoil's coordinates, or a drawing in SVG, by its content.
+    ///
+    /// Rows are "x,y" (or "x y", "x;y"); `#` starts a comment, one header or title is allowed, a blank line ends a
+    /// loop. Airfoils are Selig's (once round) or Lednicer's (upper and lower surface, with their numbers of points).
+    /// Of a drawing, every closed path, polygon, rectangle, circle and ellipse is a loop, transforms applied; its units
+    /// are those of the outermost viewBox (width and height do not matter), and since its y points down, (x, y) is read
+    /// as (x, −y). Curves become straight sides within [`FLATTENING_OVER_SIZE`](crate::FLATTENING_OVER_SIZE) of the
+    /// drawing's size.
+    ///
+    /// # Errors
+    /// [`GeometryError::InFile`] with the file's name around [`GeometryError::Unreadable`], what
+    /// [`BodyFormat::detect`] or [`BodyFormat::loops`] finds, or what [`Outline::new`] finds.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, GeometryError> {
+        in_file(path.as_ref(), |bytes, extension| {
+            Self::from_bytes(BodyFormat::detect(bytes, extension)?, bytes)
+        })
+    }
+
+    /// [`Outline::read`] for a file's content that is already in memory, in a format that is known.
+    ///
+    /// # Errors
+    /// As [`Outline::read`], without a file's name.
+    pub fn from_bytes(format: BodyFormat, bytes: &[u8]) -> Result<Self, GeometryError> {
+        Self::new(format.loops(bytes)?)
+    }
+
+    /// Reads an outline from rows of x,y, whatever the file looks like.
+    ///
+    /// # Errors
+    /// As [`Outline::read`].
+    pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, GeometryError> {
+        in_file(path.as_ref(), |bytes, _| {
+            Self::from_bytes(BodyFormat::Csv, bytes)
+        })
+    }
+
+    /// [`Outline::from_csv`] for text that is already in memory.
+    ///
+    /// # Errors
+    /// As [`Outline::from_csv`], without a file's name.
+    pub fn from_text(text: &str) -> Result<Self, GeometryError> {
+        Self::from_bytes(BodyFormat::Csv, text.as_bytes())
+    }
+}
+
+/// What becomes of a file's content and its name's ending; the name stands in front of every error.
+pub(super) fn in_file<T>(
+    path: &Path,
+    read: impl FnOnce(&[u8], &str) -> Result<T, GeometryError>,
+) -> Result<T, GeometryError> {
+    let extension = path
+        .extension()
+        .map_or_else(String::new, |e| e.to_string_lossy().into_owned());
+    std::fs::read(path)
+        .map_err(|e| GeometryError::Unreadable {
+            reason: e.to_string(),
+        })
+        .and_then(|bytes| read(&bytes, &extension))
+        .map_err(|e| e.in_file(path))
+}

@@ -1,0 +1,168 @@
+//! PLY files, text or binary in either byte order: vertices, and faces by their corners' numbers.
+
+mod header;
+mod numbers;
+
+use sphpack_neighbors::point;
+
+use self::header::{Element, Encoding, Scalar};
+use self::numbers::{BinaryNumbers, Numbers, TextNumbers};
+use super::lines::whole;
+use super::{Solid, fan, loosened};
+use crate::GeometryError;
+
+/// One part without a name. Elements and properties other than vertices' x, y, z and faces' lists of vertices are
+/// passed over.
+pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
+    let header = header::read(bytes)?;
+    let mut surface = PolygonSurface::default();
+    match header.encoding {
+        Encoding::Text => surface.read(
+            &header.elements,
+            TextNumbers::new(header.body, header.next_line),
+        )?,
+        Encoding::LittleEndian => surface.read(
+            &header.elements,
+            BinaryNumbers::<false>::new(header.body, bytes.len()),
+        )?,
+        Encoding::BigEndian => surface.read(
+            &header.elements,
+            BinaryNumbers::<true>::new(header.body, bytes.len()),
+        )?,
+    }
+    let PolygonSurface {
+        vertices,
+        triangles,
+    } = surface;
+    if triangles.is_empty() {
+        return Err(whole(format!(
+            "the PLY file holds {} points and no faces of three of them; a body needs a closed surface, export it as a mesh",
+            vertices.len()
+        )));
+    }
+    for (triangle, corners) in triangles.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices.len()) {
+            return Err(GeometryError::BadIndex {
+                triangle,
+                vertex: vertex as usize,
+                vertices: vertices.len(),
+            });
+        }
+    }
+    Ok(loosened(&vertices, vec![(String::new(), triangles)]))
+}
+
+/// What is of use in the file.
+#[derive(Debug, Default)]
+struct PolygonSurface {
+    vertices: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// What becomes of a property's numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Use {
+    Axis(usize),
+    Corners,
+    Nothing,
+}
+
+impl PolygonSurface {
+    fn read(
+        &mut self,
+        elements: &[Element<'_>],
+        mut numbers: impl Numbers,
+    ) -> Result<(), GeometryError> {
+        for element in elements {
+            // Nothing stands in the file for them, however many there are said to be.
+            if element.properties.is_empty() {
+                continue;
+            }
+            let columns = columns(element)?;
+            let is_vertex = element.name == b"vertex";
+            let mut corners: Vec<u32> = Vec::new();
+            for _ in 0..element.count {
+                numbers.begin(element.name)?;
+                let mut vertex = [0.0; 3];
+                corners.clear();
+                for &(what, length, item) in &columns {
+                    let Some(length) = length else {
+                        let value = numbers.next(item)?;
+                        if let Use::Axis(axis) = what {
+                            vertex[axis] = value;
+                        }
+                        continue;
+                    };
+                    let length = numbers.next(length)?;
+                    let Some(length) = counted(length) else {
+                        return Err(numbers.fault(format!(
+                            "a list of {length} entries; the file is damaged, export the body again"
+                        )));
+                    };
+                    for _ in 0..length {
+                        let value = numbers.next(item)?;
+                        if what == Use::Corners {
+                            let Some(corner) = counted(value) else {
+                                return Err(numbers.fault(format!(
+                                    "a face refers to vertex {value}; the file is damaged, export the body again"
+                                )));
+                            };
+                            corners.push(corner);
+                        }
+                    }
+                }
+                numbers.end()?;
+                if is_vertex {
+                    if !point::is_finite(vertex) {
+                        return Err(GeometryError::NotFinite {
+                            what: "vertex",
+                            index: self.vertices.len(),
+                        });
+                    }
+                    self.vertices.push(vertex);
+                } else {
+                    self.triangles.extend(fan(&corners));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A property as it is read: its use, the type of its length where it is a list, the type of its numbers.
+type Column = (Use, Option<Scalar>, Scalar);
+
+fn columns(element: &Element<'_>) -> Result<Vec<Column>, GeometryError> {
+    let columns: Vec<Column> = element
+        .properties
+        .iter()
+        .map(|property| {
+            let what = match (element.name, property.name, property.length) {
+                (b"vertex", b"x", None) => Use::Axis(0),
+                (b"vertex", b"y", None) => Use::Axis(1),
+                (b"vertex", b"z", None) => Use::Axis(2),
+                (b"face", b"vertex_indices" | b"vertex_index", Some(_)) => Use::Corners,
+                _ => Use::Nothing,
+            };
+            (what, property.length, property.item)
+        })
+        .collect();
+    let has = |what| columns.iter().any(|column| column.0 == what);
+    match element.name {
+        b"vertex" if !(0..3).all(|axis| has(Use::Axis(axis))) => Err(whole(
+            "the PLY file's vertices lack a property x, y or z; export the body again",
+        )),
+        b"face" if !has(Use::Corners) => Err(whole(
+            "the PLY file's faces lack the list vertex_indices; export the body again",
+        )),
+        b"tristrips" => Err(whole(
+            "the PLY file holds strips of triangles, which are not read; export the body as triangles",
+        )),
+        _ => Ok(columns),
+    }
+}
+
+/// A whole number that counts something.
+fn counted(value: f64) -> Option<u32> {
+    (value >= 0.0 && value < f64::from(u32::MAX) && value.fract() == 0.0).then_some(value as u32)
+}

@@ -1,0 +1,50 @@
+//! A lattice clipped by the bodies: what everyone starts from (000 §3).
+
+use std::time::Instant;
+
+use crate::course::Course;
+use crate::forces::Forces;
+use crate::observer::{Observer, Phase};
+use crate::packed::{Packed, StopReason};
+use crate::problem::{PackingError, Problem};
+use crate::repulsion::Repulsion;
+use crate::seeding::{Seeds, particle_surfaces, seed};
+
+/// Leaves every particle on its lattice site; a site inside a body is the body's. The density is the lattice's, the
+/// surface a staircase, volumes off by what the sites happen to be.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Clipped;
+
+impl Clipped {
+    /// Fills the box. One evaluation, to measure.
+    ///
+    /// # Errors
+    /// Those of [`Problem::check`], and [`PackingError::Surface`].
+    pub fn pack<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        observer: &mut dyn Observer,
+    ) -> Result<Packed<D>, PackingError> {
+        let mut course = Course::new(observer, 0.0, 1);
+        course.enter(Phase::Seeding);
+        let seeding = Instant::now();
+        let Seeds {
+            particles,
+            frozen_lattice,
+        } = seed(problem)?;
+        let surfaces = particle_surfaces(problem)?;
+        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+        let mut forces = Forces::of(problem, Repulsion::none());
+        forces.evaluate(&particles);
+        course.progress.evaluation = 1;
+        course.note(&forces, &particles);
+        Ok(course.end(
+            problem,
+            particles,
+            frozen_lattice,
+            surfaces,
+            &forces,
+            StopReason::Converged,
+        ))
+    }
+}

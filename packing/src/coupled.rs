@@ -1,0 +1,314 @@
+//! The coupled method of paper 001 §3.3: inside and outside packed apart, then together.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+use sphpack_geometry::Closest;
+use sphpack_neighbors::point;
+
+use crate::course::Course;
+use crate::forces::Forces;
+use crate::motion::Motion;
+use crate::observer::{Observer, Phase};
+use crate::on_surface::OnSurface;
+use crate::packed::{Packed, ParticleSurface, StopReason};
+use crate::particles::{Kind, Particles};
+use crate::problem::{PackingError, Problem};
+use crate::repulsion::Repulsion;
+use crate::seeding::{Seeds, particle_surfaces, seed};
+
+/// The coupled method (001 §3.3, algorithms 4 and 5, after Jiang et al. 2015), in the plane and in space.
+///
+/// Inside and outside are packed apart first, each held by its own surface ∆s/2 from the body's, under the symmetric
+/// pressure of eq. 27 and the cohesion of eq. 28, which keeps too many particles from being pushed onto the surface;
+/// then together, under the pressure alone, the inner surface's particles sliding along it. How many of them there are
+/// nobody controls, which is what the paper shows.
+///
+/// The paper's equations are dimensionally loose and its constants heuristic (γ = 20, p_b = 10, h = ∆s = 0.1). Here
+/// p_b = 1 and γ = [`Coupled::cohesion`] · p_b/h, for every scene; the cohesion's R is the kernel's support radius, as
+/// in Akinci et al. (2013).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coupled {
+    /// ε: stop when u_max ∆t/h is below this (001 eq. 23).
+    pub velocity_tolerance: f64,
+    /// Give up after this many iterations of the second pass.
+    pub max_iterations: usize,
+    /// Iterations of the first pass.
+    pub apart_iterations: usize,
+    /// A particle this near to its domain's surface becomes a boundary particle, in ∆s.
+    pub capture_over_spacing: f64,
+    /// γ h/p_b.
+    pub cohesion: f64,
+    /// C_ζ of the damping ζ = C_ζ √p_b/∆s.
+    pub damping: f64,
+}
+
+impl Default for Coupled {
+    fn default() -> Self {
+        Self {
+            velocity_tolerance: 1e-4,
+            max_iterations: 20_000,
+            apart_iterations: 5000,
+            capture_over_spacing: 0.05,
+            cohesion: 0.2,
+            damping: 0.2,
+        }
+    }
+}
+
+/// Eq. 27 with constant volumes is a background pressure of twice p_b.
+const SYMMETRIC: f64 = 2.0;
+
+/// Iterations between two looks at progress and convergence.
+const LOOK_EVERY: usize = 50;
+
+impl Coupled {
+    /// Packs the problem.
+    ///
+    /// # Errors
+    /// Those of [`Problem::check`], and [`PackingError::Surface`].
+    pub fn pack<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        observer: &mut dyn Observer,
+    ) -> Result<Packed<D>, PackingError> {
+        let limit = 2 * self.apart_iterations + self.max_iterations;
+        let mut course = Course::new(observer, self.velocity_tolerance, limit);
+        // ReadInput
+        problem.check()?;
+        course.enter(Phase::Geometry);
+        let geometry = Instant::now();
+        let surfaces = particle_surfaces(problem)?;
+        course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
+        course.seconds.geometry = geometry.elapsed().as_secs_f64();
+
+        // CreateParticles, DivideDomain
+        course.enter(Phase::Seeding);
+        let seeding = Instant::now();
+        let Seeds {
+            particles: lattice,
+            frozen_lattice,
+        } = seed(problem)?;
+        let [mut inner, mut outer] = divide(problem, &surfaces, &lattice);
+        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+
+        course.enter(Phase::Capture);
+        if !problem.bodies.is_empty() {
+            self.pack_apart(problem, &mut inner, &mut course, &|p, body| {
+                surfaces[usize::from(body)].surface.closest(p)
+            });
+            self.pack_apart(problem, &mut outer, &mut course, &|p, _| {
+                outer_surface(problem, p)
+            });
+        }
+
+        // Both domains: only the inner surface's particles keep to it.
+        for i in 0..outer.len() {
+            if outer.kind[i] == Kind::Boundary {
+                outer.kind[i] = Kind::Free;
+            }
+            let kind = outer.kind[i];
+            inner.push(outer.position[i], kind, outer.volume[i], None);
+        }
+        let mut particles = inner;
+        course.enter(Phase::Settling);
+        let (stop_reason, forces) =
+            self.pack_together(problem, &mut particles, &surfaces, &mut course);
+        Ok(course
+            .end(
+                problem,
+                particles,
+                frozen_lattice,
+                surfaces,
+                &forces,
+                stop_reason,
+            )
+            .with_known_sides())
+    }
+
+    /// Algorithm 4 on one domain. `nearest` tells the nearest place on its surface, seen from a place of a body's, and
+    /// how far beyond it that is (negative within).
+    fn pack_apart<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        particles: &mut Particles<D>,
+        course: &mut Course<'_>,
+        nearest: &(dyn Fn([f64; D], u16) -> Closest<D> + Sync),
+    ) {
+        let (h, spacing) = (problem.smoothing_length(), problem.spacing);
+        let zeta = self.damping * SYMMETRIC.sqrt() / spacing;
+        let cohesion = self.cohesion * problem.support() / h;
+        let mut forces = Forces::of(problem, Repulsion::none());
+        let mut pull = Forces::of_cohesion(&problem.domain, problem.support(), problem.skin());
+        let mut motion = Motion::at_rest(particles.len());
+        let mut on_surface = OnSurface::default();
+        on_surface.refresh(particles);
+        let mut watch = Watch::new(particles.len());
+        let begin = course.progress.evaluation;
+        for iteration in 1..=self.apart_iterations {
+            if course.interrupted {
+                break;
+            }
+            // UpdateNeighbors, ComputeAccelerations (eqs. 27 and 28)
+            forces.evaluate(particles);
+            pull.evaluate(particles);
+            let dt = motion.time_step(h, zeta, SYMMETRIC);
+            // IntegrateParticles
+            motion.advance(particles, &on_surface, dt, zeta, |i| {
+                let (push, pull) = (forces.gradient(i), pull.gradient(i));
+                std::array::from_fn(|k| -SYMMETRIC * push[k] - cohesion * pull[k])
+            });
+            // ProjectParticles, every iteration
+            let projecting = Instant::now();
+            if watch.capture(particles, self.capture_over_spacing * spacing, nearest) > 0 {
+                on_surface.refresh(particles);
+            }
+            on_surface.project_by(particles, |p, body| Some(nearest(p, body)));
+            course.seconds.projection += projecting.elapsed().as_secs_f64();
+            if iteration % LOOK_EVERY == 0 {
+                course.progress.evaluation = begin + iteration;
+                course.progress.criterion = motion.fastest * dt / h;
+                course.tell();
+                course.note(&forces, particles);
+            }
+        }
+    }
+
+    /// The second pass of algorithm 5.
+    fn pack_together<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        particles: &mut Particles<D>,
+        surfaces: &[ParticleSurface<D>],
+        course: &mut Course<'_>,
+    ) -> (StopReason, Forces<D>) {
+        let h = problem.smoothing_length();
+        let zeta = self.damping * SYMMETRIC.sqrt() / problem.spacing;
+        let mut forces = Forces::of(problem, Repulsion::none());
+        let mut motion = Motion::at_rest(particles.len());
+        let mut on_surface = OnSurface::default();
+        on_surface.refresh(particles);
+        course.progress.on_surface = on_surface.index.len();
+        let begin = course.progress.evaluation;
+        for iteration in 1..=self.max_iterations {
+            if course.interrupted {
+                break;
+            }
+            forces.evaluate(particles);
+            let dt = motion.time_step(h, zeta, SYMMETRIC);
+            motion.advance(particles, &on_surface, dt, zeta, |i| {
+                point::scale(forces.gradient(i), -SYMMETRIC)
+            });
+            on_surface.project(particles, surfaces, problem.support());
+            if iteration % LOOK_EVERY == 0 || iteration == self.max_iterations {
+                // CheckConvergence (eq. 23)
+                course.progress.evaluation = begin + iteration;
+                course.progress.criterion = motion.fastest * dt / h;
+                course.tell();
+                course.note(&forces, particles);
+                if course.progress.criterion < self.velocity_tolerance {
+                    return (StopReason::Converged, forces);
+                }
+            }
+        }
+        forces.evaluate(particles);
+        (StopReason::IterationLimit, forces)
+    }
+}
+
+/// The nearest place on the outside's surface, ∆s/2 outside the nearest body; its normal points to the body, out of
+/// the outside, and its distance is negative outside.
+fn outer_surface<const D: usize>(problem: &Problem<D>, p: [f64; D]) -> Closest<D> {
+    let half = 0.5 * problem.spacing;
+    let hit = (problem.bodies.iter())
+        .map(|body| body.surface.closest(p))
+        .min_by(|a, b| a.distance.total_cmp(&b.distance))
+        .expect("there is a body");
+    let away = point::unit(point::sub(p, hit.point));
+    let normal = match away {
+        Some(away) if hit.distance > 0.0 => away,
+        _ => hit.normal,
+    };
+    Closest {
+        point: point::add_scaled(hit.point, half, normal),
+        normal: point::scale(normal, -1.0),
+        distance: half - hit.distance,
+        ..hit
+    }
+}
+
+/// The particles of the inside and of the outside. What lies between a body's two surfaces is moved along the normal by
+/// ∆s, inward or outward as it is inside or outside of the body's own surface (001 §3.3).
+fn divide<const D: usize>(
+    problem: &Problem<D>,
+    surfaces: &[ParticleSurface<D>],
+    lattice: &Particles<D>,
+) -> [Particles<D>; 2] {
+    let (mut inner, mut outer) = (Particles::default(), Particles::default());
+    for i in 0..lattice.len() {
+        let (p, kind, volume) = (lattice.position[i], lattice.kind[i], lattice.volume[i]);
+        let holder = (problem.bodies.iter().zip(0_u16..))
+            .find(|(body, _)| kind == Kind::Free && body.surface.inside(p));
+        if let Some((body, number)) = holder {
+            let held = surfaces[usize::from(number)].surface.closest(p);
+            let normal = body.surface.closest(p).normal;
+            let moved = point::add_scaled(p, -problem.spacing, normal);
+            let p = if held.distance > 0.0 { moved } else { p };
+            inner.push(p, Kind::Free, volume, Some(number));
+        } else if kind == Kind::Free && !problem.bodies.is_empty() {
+            let hit = outer_surface(problem, p);
+            let moved = point::add_scaled(p, -problem.spacing, hit.normal);
+            let p = if hit.distance > 0.0 { moved } else { p };
+            outer.push(p, Kind::Free, volume, None);
+        } else {
+            outer.push(p, kind, volume, None);
+        }
+    }
+    [inner, outer]
+}
+
+/// Free particles on their way to a surface: where each was seen last, and how far it may go unseen.
+struct Watch<const D: usize> {
+    seen: Vec<([f64; D], f64)>,
+}
+
+impl<const D: usize> Watch<D> {
+    fn new(count: usize) -> Self {
+        Self {
+            seen: vec![([0.0; D], -1.0); count],
+        }
+    }
+
+    /// Turns free particles that are nearer to the surface than `reach`, or beyond it, into boundary particles; returns
+    /// how many.
+    fn capture(
+        &mut self,
+        particles: &mut Particles<D>,
+        reach: f64,
+        nearest: &(dyn Fn([f64; D], u16) -> Closest<D> + Sync),
+    ) -> usize {
+        let (position, kind, body) = (&particles.position, &particles.kind, &particles.body);
+        self.seen
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(256)
+            .filter(|(i, _)| kind[*i] == Kind::Free)
+            .for_each(|(i, (seen, room))| {
+                let p = position[i];
+                if *room < 0.0 || point::distance(p, *seen) > *room {
+                    let hit = nearest(p, body[i].unwrap_or(0));
+                    *seen = p;
+                    // The normal points out of the domain.
+                    *room = -hit.distance - reach;
+                }
+            });
+        let mut captured = 0;
+        for (i, (_, room)) in self.seen.iter().enumerate() {
+            if particles.kind[i] == Kind::Free && *room < 0.0 {
+                particles.kind[i] = Kind::Boundary;
+                captured += 1;
+            }
+        }
+        captured
+    }
+}

@@ -1,0 +1,137 @@
+//! Free particles stay on their side of every surface.
+
+use rayon::prelude::*;
+use sphpack_neighbors::{KdTree, point};
+
+use crate::packed::ParticleSurface;
+use crate::particles::{Kind, Particles};
+
+/// No free particle comes nearer to a surface than this, in ∆s, if it was not nearer before. Those of the first layer
+/// are 0.8 ∆s away.
+const FLOOR: f64 = 0.4;
+
+/// Free particles that have a surface particle within this, in ∆s, are watched.
+const SIGHT: f64 = 1.6;
+
+/// Watches the free particles near surfaces. Without it a few slip through the layer of a body's surface particles,
+/// one by one over some hundred evaluations, wherever a disordered interior has the higher pressure; their body loses
+/// their volume.
+#[derive(Debug, Default)]
+pub(super) struct Sides<const D: usize> {
+    watched: Vec<Watched<D>>,
+}
+
+/// A free particle near a surface.
+#[derive(Debug, Clone, Copy)]
+struct Watched<const D: usize> {
+    particle: u32,
+    surface: u16,
+    /// 1 outside, −1 inside.
+    side: f64,
+    /// No nearer to the surface than this, on its side.
+    floor: f64,
+    /// Where it was seen last, and how far it may go from there without being looked at.
+    seen: [f64; D],
+    room: f64,
+    /// The normal where it lies on the floor, away from the surface.
+    held: Option<[f64; D]>,
+}
+
+impl<const D: usize> Watched<D> {
+    /// Looks at the particle anew, and puts it back where it came too near.
+    fn look(&mut self, surfaces: &[ParticleSurface<D>], p: &mut [f64; D]) {
+        let hit = surfaces[usize::from(self.surface)].surface.closest(*p);
+        let away = point::scale(hit.normal, self.side);
+        let lacking = self.floor - self.side * hit.distance;
+        self.held = (lacking >= 0.0).then_some(away);
+        if lacking > 0.0 {
+            *p = point::add_scaled(*p, lacking, away);
+        }
+        self.seen = *p;
+        self.room = (-lacking).max(0.0);
+    }
+}
+
+impl<const D: usize> Sides<D> {
+    /// Begins to watch, each particle on the side where it is now.
+    pub(super) fn of(
+        particles: &Particles<D>,
+        surfaces: &[ParticleSurface<D>],
+        spacing: f64,
+    ) -> Self {
+        let of_kind = |wanted: fn(Kind) -> bool| -> Vec<u32> {
+            (0..particles.len() as u32)
+                .filter(|&i| wanted(particles.kind[i as usize]))
+                .collect()
+        };
+        let on_surface = of_kind(Kind::is_on_surface);
+        let places: Vec<[f64; D]> = on_surface
+            .iter()
+            .map(|&i| particles.position[i as usize])
+            .collect();
+        let Ok(tree) = KdTree::new(&places) else {
+            return Self::default();
+        };
+        let watched = |&i: &u32| {
+            let p = particles.position[i as usize];
+            let mut bodies: Vec<u16> = tree
+                .within(p, SIGHT * spacing)
+                .iter()
+                .filter_map(|found| particles.body[on_surface[found.index] as usize])
+                .collect();
+            bodies.sort_unstable();
+            bodies.dedup();
+            bodies.into_iter().map(move |surface| {
+                let distance = surfaces[usize::from(surface)].surface.closest(p).distance;
+                let floor = (FLOOR * spacing).min(distance.abs());
+                Watched {
+                    particle: i,
+                    surface,
+                    side: distance.signum(),
+                    floor,
+                    seen: p,
+                    room: distance.abs() - floor,
+                    held: None,
+                }
+            })
+        };
+        Self {
+            watched: of_kind(|kind| kind == Kind::Free)
+                .par_iter()
+                .with_min_len(256)
+                .flat_map_iter(watched)
+                .collect(),
+        }
+    }
+
+    /// Puts particles back that came too near to a surface.
+    pub(super) fn keep(&mut self, particles: &mut Particles<D>, surfaces: &[ParticleSurface<D>]) {
+        let position = &particles.position;
+        let moved: Vec<Option<[f64; D]>> = self
+            .watched
+            .par_iter_mut()
+            .with_min_len(1024)
+            .map(|watched| {
+                let mut p = position[watched.particle as usize];
+                if point::distance(p, watched.seen) <= watched.room {
+                    watched.held = None;
+                    return None;
+                }
+                watched.look(surfaces, &mut p);
+                watched.held.map(|_| p)
+            })
+            .collect();
+        for (watched, moved) in self.watched.iter().zip(moved) {
+            if let Some(p) = moved {
+                particles.position[watched.particle as usize] = p;
+            }
+        }
+    }
+
+    /// Particles that lie on their floor, and which way is away from the surface.
+    pub(super) fn held(&self) -> impl Iterator<Item = (usize, [f64; D])> {
+        self.watched
+            .iter()
+            .filter_map(|watched| watched.held.map(|away| (watched.particle as usize, away)))
+    }
+}

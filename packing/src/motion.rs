@@ -1,0 +1,65 @@
+//! Damped dynamics, as the papers' methods share it.
+
+use rayon::prelude::*;
+use sphpack_neighbors::point;
+
+use crate::forces::largest;
+use crate::on_surface::OnSurface;
+use crate::particles::{Kind, Particles};
+
+/// Velocities, and how they change.
+#[derive(Debug, Clone)]
+pub(crate) struct Motion<const D: usize> {
+    velocity: Vec<[f64; D]>,
+    /// The largest speed after the last step.
+    pub(crate) fastest: f64,
+}
+
+impl<const D: usize> Motion<D> {
+    /// `count` particles at rest.
+    pub(crate) fn at_rest(count: usize) -> Self {
+        Self {
+            velocity: vec![[0.0; D]; count],
+            fastest: 0.0,
+        }
+    }
+
+    /// 001 eq. 25 for a background pressure `pressure`, with the last step's velocities.
+    pub(crate) fn time_step(&self, h: f64, zeta: f64, pressure: f64) -> f64 {
+        (0.1 * h / pressure.sqrt()).min((0.1 * h / (zeta * self.fastest)).sqrt())
+    }
+
+    /// 001 eqs. 17 and 19, semi-implicit Euler with damping −`zeta` u; along the surface for boundary particles
+    /// (eq. 22).
+    pub(crate) fn advance(
+        &mut self,
+        particles: &mut Particles<D>,
+        on_surface: &OnSurface<D>,
+        dt: f64,
+        zeta: f64,
+        acceleration: impl Fn(usize) -> [f64; D] + Sync,
+    ) {
+        let kind = &particles.kind;
+        self.velocity
+            .par_iter_mut()
+            .zip(&mut particles.position)
+            .enumerate()
+            .with_min_len(1024)
+            .filter(|(i, _)| kind[*i].is_mobile())
+            .for_each(|(i, (u, x))| {
+                let a = point::add_scaled(acceleration(i), -zeta, *u);
+                *u = on_surface.tangential(i, point::add_scaled(*u, dt, a));
+                *x = point::add_scaled(*x, dt, *u);
+            });
+        self.fastest = largest(self.velocity.len(), |i| point::norm(self.velocity[i]));
+    }
+
+    /// Σ ½ u² over the free and boundary particles, over their number.
+    pub(crate) fn mean_kinetic_energy(&self, kind: &[Kind]) -> f64 {
+        let mobile: Vec<usize> = (0..kind.len()).filter(|&i| kind[i].is_mobile()).collect();
+        let sum = crate::forces::blocked_sum(&mobile, |&i| {
+            0.5 * point::dot(self.velocity[i], self.velocity[i])
+        });
+        sum / mobile.len().max(1) as f64
+    }
+}

@@ -1,0 +1,173 @@
+//! The standard method of paper 001 §3.2: a solid of offset layers, and fluid packed around it.
+
+use std::time::Instant;
+
+use sphpack_geometry::{Feature, GeometryError};
+
+use crate::course::Course;
+use crate::forces::Forces;
+use crate::motion::Motion;
+use crate::observer::{Observer, Phase};
+use crate::on_surface::OnSurface;
+use crate::packed::{Packed, StopReason};
+use crate::particles::{Kind, Particles};
+use crate::problem::{PackingError, Problem};
+use crate::repulsion::Repulsion;
+use crate::seeding::{Seeds, particle_surfaces, seed};
+
+/// The standard method (001 §3.2, algorithm 3), in the plane only.
+///
+/// The solid is layers of particles ∆s apart (Marrone et al. 2011): the particle surface, moved inward by ∆s again and
+/// again until nothing is left, corners on their bisectors. Its particles never move. The fluid is the lattice's sites
+/// outside the true bodies, and settles under background pressure and damping alone (Colagrossi et al. 2012), eq. 26:
+/// without repulsion particles may pair. On a curved surface layers ∆s apart hold too few particles, which is what the
+/// paper shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Standard {
+    /// ε: stop when u_max ∆t/h is below this (001 eq. 23).
+    pub velocity_tolerance: f64,
+    /// Give up after this many iterations.
+    pub max_iterations: usize,
+    /// C_ζ of the damping ζ = C_ζ √p_b/∆s.
+    pub damping: f64,
+}
+
+impl Default for Standard {
+    fn default() -> Self {
+        Self {
+            velocity_tolerance: 1e-4,
+            max_iterations: 20_000,
+            damping: 0.2,
+        }
+    }
+}
+
+/// Iterations between two looks at convergence.
+const LOOK_EVERY: usize = 50;
+
+impl Standard {
+    /// Packs the problem.
+    ///
+    /// # Errors
+    /// Those of [`Problem::check`], [`PackingError::Surface`], and [`PackingError::OnlyPlane`] in space.
+    pub fn pack<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        observer: &mut dyn Observer,
+    ) -> Result<Packed<D>, PackingError> {
+        if D != 2 {
+            return Err(PackingError::OnlyPlane { method: "standard" });
+        }
+        let mut course = Course::new(observer, self.velocity_tolerance, self.max_iterations);
+        // ReadInput
+        problem.check()?;
+        course.enter(Phase::Geometry);
+        let geometry = Instant::now();
+        let surfaces = particle_surfaces(problem)?;
+        course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
+        course.seconds.geometry = geometry.elapsed().as_secs_f64();
+
+        // CreateParticles
+        course.enter(Phase::Seeding);
+        let seeding = Instant::now();
+        let Seeds {
+            particles: lattice,
+            frozen_lattice,
+        } = seed(problem)?;
+        let volume = frozen_lattice.volume_per_site();
+        let (mut particles, kinds) = layers(problem, volume)?;
+        let is_fluid = |p: [f64; D]| !problem.bodies.iter().any(|body| body.surface.inside(p));
+        for i in 0..lattice.len() {
+            let p = lattice.position[i];
+            if lattice.kind[i] == Kind::Frozen || is_fluid(p) {
+                particles.push(p, lattice.kind[i], lattice.volume[i], None);
+            }
+        }
+        course.progress.on_surface = kinds.iter().filter(|kind| kind.is_on_surface()).count();
+        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+
+        // SetConstantAndTimeStep, for p_b = 1
+        let h = problem.smoothing_length();
+        let zeta = self.damping / problem.spacing;
+        let mut forces = Forces::of(problem, Repulsion::none());
+        let mut motion = Motion::at_rest(particles.len());
+        let mut on_surface = OnSurface::default();
+        on_surface.refresh(&particles);
+        let mut stop_reason = StopReason::IterationLimit;
+        course.enter(Phase::Settling);
+        for iteration in 1..=self.max_iterations {
+            if course.interrupted {
+                break;
+            }
+            // UpdateNeighbors, ComputeAccelerations (eq. 26), IntegrateParticles (eqs. 17, 19)
+            forces.evaluate(&particles);
+            let dt = motion.time_step(h, zeta, 1.0);
+            motion.advance(&mut particles, &on_surface, dt, zeta, |i| {
+                forces.acceleration(i)
+            });
+            if iteration % LOOK_EVERY == 0 || iteration == self.max_iterations {
+                // CheckConvergence (eq. 23)
+                course.progress.evaluation = iteration;
+                course.progress.criterion = motion.fastest * dt / h;
+                course.tell();
+                course.note(&forces, &particles);
+                if course.progress.criterion < self.velocity_tolerance {
+                    stop_reason = StopReason::Converged;
+                    break;
+                }
+            }
+        }
+        particles.kind[..kinds.len()].copy_from_slice(&kinds);
+        Ok(course
+            .end(
+                problem,
+                particles,
+                frozen_lattice,
+                surfaces,
+                &forces,
+                stop_reason,
+            )
+            .with_known_sides())
+    }
+}
+
+/// The solids' layers, all fixed, and the kinds that they are to have in the end: the first layer is on the particle
+/// surface, the others count as free although they never moved.
+fn layers<const D: usize>(
+    problem: &Problem<D>,
+    volume: f64,
+) -> Result<(Particles<D>, Vec<Kind>), PackingError> {
+    let mut particles = Particles::default();
+    let mut kinds = Vec::new();
+    for (body, number) in problem.bodies.iter().zip(0_u16..) {
+        let fail = |source| PackingError::Surface {
+            body: body.name.clone(),
+            source,
+        };
+        let is_taken = |p: [f64; D]| {
+            let earlier = &problem.bodies[..usize::from(number)];
+            earlier.iter().any(|other| other.surface.inside(p))
+        };
+        for layer in 0.. {
+            let depth = (body.inset_over_spacing + f64::from(layer)) * problem.spacing;
+            let surface = match body.surface.inset(depth) {
+                Ok(surface) => surface,
+                Err(GeometryError::Vanished { .. }) => break,
+                Err(error) => return Err(fail(error)),
+            };
+            let count = (surface.measure() / problem.spacing).round().max(1.0) as usize;
+            for hit in surface.sample(count).map_err(fail)? {
+                if is_taken(hit.point) {
+                    continue;
+                }
+                particles.push(hit.point, Kind::Fixed, volume, Some(number));
+                kinds.push(match (layer, hit.feature) {
+                    (0, Feature::Smooth) => Kind::Boundary,
+                    (0, _) => Kind::Fixed,
+                    _ => Kind::Free,
+                });
+            }
+        }
+    }
+    Ok((particles, kinds))
+}

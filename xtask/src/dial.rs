@@ -1,0 +1,62 @@
+//! What levelling buys, and what it costs.
+
+use std::fmt::Write as _;
+
+use sphpack::{Options, run as pack};
+use sphpack_packing::Silent;
+
+use crate::reproduce::{Settings, load};
+
+const HEAD: &str = "\
+| scene | ∆s | κ | L∞ | 99 % within | residual of free max, rms | closest pair / ∆s | evaluations | seconds |
+|---|---|---|---|---|---|---|---|---|
+";
+
+/// Scenes, their spacings, and whether they are quick.
+const SCENES: [(&str, f64, bool); 4] = [
+    ("starfish", 0.05, true),
+    ("zigzag", 0.05, false),
+    ("naca0015", 0.02, false),
+    ("sphere", 0.1, false),
+];
+
+/// From none to as much as a patient user wants.
+const STIFFNESS: [f64; 6] = [0.0, 3.0, 10.0, 30.0, 100.0, 300.0];
+
+/// The table of stiffness κ against density and residual.
+pub(crate) fn table(settings: &Settings) -> Result<String, String> {
+    let mut table = HEAD.to_owned();
+    print!("\n{HEAD}");
+    for (name, spacing, quick) in SCENES {
+        if !settings.wants(name, quick) {
+            continue;
+        }
+        for stiffness in STIFFNESS {
+            let Some(mut scene) = load(name, settings)? else {
+                continue;
+            };
+            scene.spacing = spacing;
+            scene.packing.levelling = Some(stiffness);
+            scene.packing.max_iterations = 2000;
+            let outcome = pack(&scene, &Options::default(), &mut Silent)
+                .map_err(|error| error.to_string())?;
+            let report = &outcome.report;
+            let mut line = String::new();
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                line,
+                "| {name} | {spacing} | {stiffness} | {:.3} % | {:.3} % | {:.1e}, {:.1e} | {:.3} | {} | {:.2} |",
+                100.0 * report.density.linf,
+                100.0 * outcome.table.error_of_most(0.99),
+                report.residual.max,
+                report.residual.rms,
+                report.closest_pair_over_spacing,
+                report.force_evaluations,
+                report.seconds.total,
+            );
+            print!("{line}");
+            table.push_str(&line);
+        }
+    }
+    Ok(table)
+}
