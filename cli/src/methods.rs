@@ -1,11 +1,11 @@
 //! From a scene's method to the one that packs.
 
 use sphpack_packing::{
-    Balanced, Band, Clipped, Coupled, Hybrid, Observer, Packed, Problem, Standard,
+    Balanced, Band, Clipped, Coupled, Hybrid, Observer, Packed, Ppa, Problem, Standard,
 };
 
 use crate::Error;
-use crate::scene::{BandWidth, Method, Scene};
+use crate::scene::{BandWidth, Method, Role, Scene};
 
 /// Packs by the scene's method, with the scene's settings.
 pub(crate) fn pack<const D: usize>(
@@ -40,6 +40,14 @@ pub(crate) fn pack<const D: usize>(
             velocity_tolerance: packing.velocity_tolerance,
             max_iterations: packing.max_iterations,
             ..Coupled::default()
+        }
+        .pack(problem, observer),
+        Method::Ppa => Ppa {
+            max_iterations: packing.max_iterations,
+            containers: (scene.body.iter())
+                .map(|body| body.role == Role::Container)
+                .collect(),
+            ..Ppa::default()
         }
         .pack(problem, observer),
         Method::Clipped => Clipped.pack(problem, observer),

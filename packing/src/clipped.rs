@@ -6,6 +6,7 @@ use crate::course::Course;
 use crate::forces::Forces;
 use crate::observer::{Observer, Phase};
 use crate::packed::{Packed, StopReason};
+use crate::particles::Kind;
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::Repulsion;
 use crate::seeding::{Seeds, particle_surfaces, seed};
@@ -29,22 +30,32 @@ impl Clipped {
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
         let Seeds {
-            particles,
+            mut particles,
             frozen_lattice,
         } = seed(problem)?;
+        for (body, number) in problem.bodies.iter().zip(0_u16..) {
+            let inside = body.surface.inside_batch(&particles.position);
+            for i in 0..particles.len() {
+                if inside[i] && particles.kind[i] == Kind::Free && particles.body[i].is_none() {
+                    particles.body[i] = Some(number);
+                }
+            }
+        }
         let surfaces = particle_surfaces(problem)?;
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
         let mut forces = Forces::of(problem, Repulsion::none());
         forces.evaluate(&particles);
         course.progress.evaluation = 1;
         course.note(&forces, &particles);
-        Ok(course.end(
-            problem,
-            particles,
-            frozen_lattice,
-            surfaces,
-            &forces,
-            StopReason::Converged,
-        ))
+        Ok(course
+            .end(
+                problem,
+                particles,
+                frozen_lattice,
+                surfaces,
+                &forces,
+                StopReason::Converged,
+            )
+            .with_known_sides())
     }
 }

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use rayon::prelude::*;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
 
@@ -16,6 +15,7 @@ use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::Repulsion;
 use crate::seeding::{Seeds, particle_surfaces, seed};
+use crate::watch::Watch;
 
 /// The coupled method (001 §3.3, algorithms 4 and 5, after Jiang et al. 2015), in the plane and in space.
 ///
@@ -160,7 +160,11 @@ impl Coupled {
             });
             // ProjectParticles, every iteration
             let projecting = Instant::now();
-            if watch.capture(particles, self.capture_over_spacing * spacing, nearest) > 0 {
+            let captured = watch.near(particles, self.capture_over_spacing * spacing, nearest);
+            if !captured.is_empty() {
+                for (i, _) in captured {
+                    particles.kind[i] = Kind::Boundary;
+                }
                 on_surface.refresh(particles);
             }
             on_surface.project_by(particles, |p, body| Some(nearest(p, body)));
@@ -172,6 +176,7 @@ impl Coupled {
                 course.note(&forces, particles);
             }
         }
+        course.earlier_evaluations += forces.evaluations() + pull.evaluations();
     }
 
     /// The second pass of algorithm 5.
@@ -265,50 +270,4 @@ fn divide<const D: usize>(
         }
     }
     [inner, outer]
-}
-
-/// Free particles on their way to a surface: where each was seen last, and how far it may go unseen.
-struct Watch<const D: usize> {
-    seen: Vec<([f64; D], f64)>,
-}
-
-impl<const D: usize> Watch<D> {
-    fn new(count: usize) -> Self {
-        Self {
-            seen: vec![([0.0; D], -1.0); count],
-        }
-    }
-
-    /// Turns free particles that are nearer to the surface than `reach`, or beyond it, into boundary particles; returns
-    /// how many.
-    fn capture(
-        &mut self,
-        particles: &mut Particles<D>,
-        reach: f64,
-        nearest: &(dyn Fn([f64; D], u16) -> Closest<D> + Sync),
-    ) -> usize {
-        let (position, kind, body) = (&particles.position, &particles.kind, &particles.body);
-        self.seen
-            .par_iter_mut()
-            .enumerate()
-            .with_min_len(256)
-            .filter(|(i, _)| kind[*i] == Kind::Free)
-            .for_each(|(i, (seen, room))| {
-                let p = position[i];
-                if *room < 0.0 || point::distance(p, *seen) > *room {
-                    let hit = nearest(p, body[i].unwrap_or(0));
-                    *seen = p;
-                    // The normal points out of the domain.
-                    *room = -hit.distance - reach;
-                }
-            });
-        let mut captured = 0;
-        for (i, (_, room)) in self.seen.iter().enumerate() {
-            if particles.kind[i] == Kind::Free && *room < 0.0 {
-                particles.kind[i] = Kind::Boundary;
-                captured += 1;
-            }
-        }
-        captured
-    }
 }

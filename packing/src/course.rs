@@ -20,6 +20,8 @@ pub(crate) struct Course<'a> {
     pub(crate) seconds: Seconds,
     /// What the observer is told next.
     pub(crate) progress: Progress,
+    /// Evaluations that other evaluators made than the one at the end.
+    pub(crate) earlier_evaluations: usize,
     /// Whether the observer wants an end.
     pub(crate) interrupted: bool,
 }
@@ -46,6 +48,7 @@ impl<'a> Course<'a> {
                 target: 0,
                 seconds: 0.0,
             },
+            earlier_evaluations: 0,
             interrupted: false,
         }
     }
@@ -121,7 +124,7 @@ impl<'a> Course<'a> {
                 stop_reason
             },
             iterations: self.progress.evaluation,
-            force_evaluations: forces.evaluations(),
+            force_evaluations: self.earlier_evaluations + forces.evaluations(),
             history: self.history,
             seconds: self.seconds,
         }

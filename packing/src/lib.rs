@@ -37,11 +37,13 @@ pub mod on_surface;
 pub mod packed;
 mod pair_sums;
 pub mod particles;
+mod ppa;
 pub mod problem;
 pub mod quality;
 pub mod repulsion;
 pub mod seeding;
 mod standard;
+mod watch;
 
 #[cfg(test)]
 mod tests;
@@ -56,6 +58,7 @@ pub use minimise::{Finish, MinimiserKind, Settling};
 pub use observer::{Observer, Phase, Progress, Sample, Silent};
 pub use packed::{Packed, ParticleSurface, Seconds, StopReason};
 pub use particles::{Kind, Particles};
+pub use ppa::Ppa;
 pub use problem::{Body, Estimate, FrozenLayout, PackingError, Problem};
 pub use quality::{DensityQuality, Fields, Quality, ResidualQuality, SurfaceQuality};
 pub use standard::Standard;

@@ -54,6 +54,11 @@ impl<const D: usize> Motion<D> {
         self.fastest = largest(self.velocity.len(), |i| point::norm(self.velocity[i]));
     }
 
+    /// Brings a particle to rest.
+    pub(crate) fn stop(&mut self, i: usize) {
+        self.velocity[i] = [0.0; D];
+    }
+
     /// Σ ½ u² over the free and boundary particles, over their number.
     pub(crate) fn mean_kinetic_energy(&self, kind: &[Kind]) -> f64 {
         let mobile: Vec<usize> = (0..kind.len()).filter(|&i| kind[i].is_mobile()).collect();

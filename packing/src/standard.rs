@@ -155,7 +155,8 @@ fn layers<const D: usize>(
                 Err(GeometryError::Vanished { .. }) => break,
                 Err(error) => return Err(fail(error)),
             };
-            let count = (surface.measure() / problem.spacing).round().max(1.0) as usize;
+            // As many as fit at a distance of ∆s.
+            let count = (surface.measure() / problem.spacing).floor().max(1.0) as usize;
             for hit in surface.sample(count).map_err(fail)? {
                 if is_taken(hit.point) {
                     continue;

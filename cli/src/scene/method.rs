@@ -20,6 +20,8 @@ pub enum Method {
     Relaxation,
     /// Relaxation of bodies and fluid together (004).
     Complex,
+    /// Fluid between fixed walls (002).
+    Ppa,
     /// The lattice clipped by the bodies (000 §3).
     Clipped,
 }
@@ -55,7 +57,7 @@ const USUAL: MethodInfo = MethodInfo {
 };
 
 /// Every method that has a name.
-pub const METHODS: [MethodInfo; 7] = [
+pub const METHODS: [MethodInfo; 8] = [
     MethodInfo {
         minimises: true,
         summary: "surface first, counts balanced, then a minimiser (the default)",
@@ -93,6 +95,12 @@ pub const METHODS: [MethodInfo; 7] = [
         name: "complex",
         is_available: false,
         summary: "relaxation of bodies and fluid together",
+        ..USUAL
+    },
+    MethodInfo {
+        method: Method::Ppa,
+        name: "ppa",
+        summary: "fluid at rest between walls that never move, for containers (paper 002)",
         ..USUAL
     },
     MethodInfo {

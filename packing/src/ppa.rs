@@ -1,0 +1,303 @@
+//! The particle packing algorithm of paper 002 §III: fluid at rest between walls that never move.
+
+use std::time::Instant;
+
+use sphpack_geometry::{Closest, Feature, GeometryError, Surface};
+use sphpack_neighbors::{KdTree, point};
+
+use crate::course::Course;
+use crate::forces::Forces;
+use crate::motion::Motion;
+use crate::observer::{Observer, Phase};
+use crate::on_surface::OnSurface;
+use crate::packed::{Packed, StopReason};
+use crate::particles::{Kind, Particles};
+use crate::problem::{PackingError, Problem};
+use crate::repulsion::Repulsion;
+use crate::seeding::{Seeds, particle_surfaces, seed};
+use crate::watch::Watch;
+
+/// The particle packing algorithm (002 §III).
+///
+/// The fluid is the lattice's sites between the walls, with the volume V₀ = V/N each, and follows
+/// du/dt = −β ∇Γ − ν u (eq. III.7) with ν = α √β/V₀^(1/d) (III.6) and ∆t = CFL V₀^(1/d)/√β (III.8), β = 1. Walls are
+/// fixed particles in layers ∆s/2, 3∆s/2, … behind the true surfaces, as deep as the kernel reaches (the fixed ghost
+/// particles of Marrone et al. 2011); what gaps layers leave at corners is filled with lattice sites. They are frozen:
+/// part of no figure.
+///
+/// A body named in [`Ppa::containers`] holds the fluid inside, any other one keeps it out. The paper states neither
+/// kernel nor h/∆s.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ppa {
+    /// Stop where the mean of ½ u²/β falls below this; 002 §IV reaches 10⁻⁸.
+    pub energy_tolerance: f64,
+    /// Give up after this many iterations; 002 needs 2000 to 2500.
+    pub max_iterations: usize,
+    /// α of III.6; 002 gives 10⁻³ … 5·10⁻³. The energy falls as exp(−2 α CFL n) at best, so the upper end.
+    pub damping: f64,
+    /// CFL of III.8.
+    pub cfl: f64,
+    /// For every body, whether the fluid is inside it.
+    pub containers: Vec<bool>,
+}
+
+impl Default for Ppa {
+    fn default() -> Self {
+        Self {
+            energy_tolerance: 1e-8,
+            max_iterations: 20_000,
+            damping: 5e-3,
+            cfl: 1.0,
+            containers: Vec::new(),
+        }
+    }
+}
+
+/// Iterations between two looks at convergence.
+const LOOK_EVERY: usize = 50;
+
+/// No fluid particle comes nearer to a wall's surface than this, in ∆s: wall particles alone are no barrier.
+const FLOOR: f64 = 0.4;
+
+/// How often a particle in a corner is put back from one wall and the other.
+const CORNER_ROUNDS: usize = 20;
+
+/// A wall's lattice site this near to a wall particle, in ∆s, is none.
+const CLEARANCE: f64 = 0.8;
+
+impl Ppa {
+    /// Packs the problem.
+    ///
+    /// # Errors
+    /// Those of [`Problem::check`], and [`PackingError::Surface`].
+    pub fn pack<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        observer: &mut dyn Observer,
+    ) -> Result<Packed<D>, PackingError> {
+        let mut course = Course::new(observer, self.energy_tolerance, self.max_iterations);
+        course.enter(Phase::Geometry);
+        let geometry = Instant::now();
+        problem.check()?;
+        let surfaces = particle_surfaces(problem)?;
+        course.seconds.geometry = geometry.elapsed().as_secs_f64();
+        course.enter(Phase::Seeding);
+        let seeding = Instant::now();
+        let Seeds {
+            particles: lattice,
+            frozen_lattice,
+        } = seed(problem)?;
+        let mut particles = self.fluid_and_walls(problem, &lattice)?;
+        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+
+        course.enter(Phase::Settling);
+        let size = problem.spacing;
+        let viscosity = self.damping / size;
+        let dt = self.cfl * size;
+        let mut forces = Forces::of(problem, Repulsion::none());
+        let mut motion = Motion::at_rest(particles.len());
+        let mut on_surface = OnSurface::default();
+        on_surface.refresh(&particles);
+        let floor = FLOOR * size;
+        let mut watch = Watch::new(particles.len());
+        let nearest = |p: [f64; D], _| self.wall(problem, p);
+        let mut stop_reason = StopReason::IterationLimit;
+        for iteration in 1..=self.max_iterations {
+            if course.interrupted {
+                break;
+            }
+            forces.evaluate(&particles);
+            // III.7, velocities first.
+            motion.advance(&mut particles, &on_surface, dt, viscosity, |i| {
+                forces.acceleration(i)
+            });
+            // "Particles are not allowed to escape from the boundaries."
+            for (i, mut wall) in watch.near(&particles, floor, &nearest) {
+                // In a corner first from one wall, then from the other.
+                for _ in 0..CORNER_ROUNDS {
+                    let lacking = wall.distance + floor;
+                    if lacking <= 0.0 {
+                        break;
+                    }
+                    let p = &mut particles.position[i];
+                    *p = point::add_scaled(*p, -lacking, wall.normal);
+                    wall = nearest(*p, 0);
+                }
+                motion.stop(i);
+            }
+            if iteration % LOOK_EVERY == 0 || iteration == self.max_iterations {
+                course.progress.evaluation = iteration;
+                course.progress.criterion = motion.mean_kinetic_energy(&particles.kind);
+                course.tell();
+                course.note(&forces, &particles);
+                if course.progress.criterion < self.energy_tolerance {
+                    stop_reason = StopReason::Converged;
+                    break;
+                }
+            }
+        }
+        Ok(course
+            .end(
+                problem,
+                particles,
+                frozen_lattice,
+                surfaces,
+                &forces,
+                stop_reason,
+            )
+            .with_known_sides())
+    }
+
+    /// The nearest place of any wall, its normal out of the fluid, its distance negative within the fluid.
+    fn wall<const D: usize>(&self, problem: &Problem<D>, p: [f64; D]) -> Closest<D> {
+        (problem.bodies.iter().enumerate())
+            .map(|(number, body)| {
+                let hit = body.surface.closest(p);
+                if self.holds_fluid(number) {
+                    return hit;
+                }
+                Closest {
+                    normal: point::scale(hit.normal, -1.0),
+                    distance: -hit.distance,
+                    ..hit
+                }
+            })
+            .max_by(|a, b| a.distance.total_cmp(&b.distance))
+            .unwrap_or(Closest {
+                point: p,
+                normal: [0.0; D],
+                distance: f64::NEG_INFINITY,
+                feature: Feature::Smooth,
+            })
+    }
+
+    fn holds_fluid(&self, body: usize) -> bool {
+        self.containers.get(body).copied().unwrap_or(false)
+    }
+
+    /// The lattice's sites in the fluid, each with its share of the fluid's volume, and the walls around it.
+    fn fluid_and_walls<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        lattice: &Particles<D>,
+    ) -> Result<Particles<D>, PackingError> {
+        let is_fluid = |p: [f64; D]| {
+            (problem.bodies.iter().enumerate())
+                .all(|(b, body)| body.surface.inside(p) == self.holds_fluid(b))
+        };
+        let mut particles = Particles::default();
+        let sites = |kind: Kind| {
+            (0..lattice.len())
+                .filter(move |&i| lattice.kind[i] == kind)
+                .map(|i| lattice.position[i])
+        };
+        for p in sites(Kind::Free).filter(|&p| is_fluid(p)) {
+            particles.push(p, Kind::Free, 0.0, None);
+        }
+        let volume = self.fluid_volume(problem) / particles.len().max(1) as f64;
+        particles.volume.fill(volume);
+        let mut walls = self.walls(problem)?;
+        walls.retain(|&p| !is_fluid(p));
+        let gaps: Vec<[f64; D]> = match KdTree::new(&walls) {
+            Ok(tree) if !walls.is_empty() => {
+                let clearance = CLEARANCE * problem.spacing;
+                let far = |p: [f64; D]| {
+                    tree.nearest(p)
+                        .is_none_or(|found| found.distance > clearance)
+                };
+                let is_near = |p: [f64; D]| {
+                    let reach = problem.frozen_depth();
+                    let within = |body: &crate::Body<D>| body.surface.closest_within(p, reach);
+                    problem.bodies.iter().any(|body| within(body).is_some())
+                };
+                sites(Kind::Free)
+                    .filter(|&p| !is_fluid(p) && far(p) && is_near(p))
+                    .collect()
+            }
+            _ => Vec::new(),
+        };
+        for p in walls.into_iter().chain(gaps) {
+            particles.push(p, Kind::Frozen, volume, None);
+        }
+        if !(0..problem.bodies.len()).any(|body| self.holds_fluid(body)) {
+            for p in sites(Kind::Frozen) {
+                particles.push(p, Kind::Frozen, volume, None);
+            }
+        }
+        Ok(particles)
+    }
+
+    /// The volume of the containers, or of the box, without that of what is in it.
+    fn fluid_volume<const D: usize>(&self, problem: &Problem<D>) -> f64 {
+        let of = |holds: bool| -> f64 {
+            (problem.bodies.iter().enumerate())
+                .filter(|(b, _)| self.holds_fluid(*b) == holds)
+                .map(|(_, body)| body.surface.volume())
+                .sum()
+        };
+        let around = of(true);
+        let all = if around > 0.0 {
+            around
+        } else {
+            problem.domain.bounds.volume()
+        };
+        all - of(false)
+    }
+
+    /// Layers of points behind every surface, seen from the fluid.
+    fn walls<const D: usize>(&self, problem: &Problem<D>) -> Result<Vec<[f64; D]>, PackingError> {
+        let layers = (problem.frozen_depth() / problem.spacing).ceil() as usize;
+        let mut points = Vec::new();
+        for (number, body) in problem.bodies.iter().enumerate() {
+            let fail = |source| PackingError::Surface {
+                body: body.name.clone(),
+                source,
+            };
+            for layer in 0..layers {
+                let depth = (layer as f64 + 0.5) * problem.spacing;
+                let found = if self.holds_fluid(number) {
+                    outside(body.surface.as_ref(), depth, problem.spacing)
+                } else {
+                    inside(body.surface.as_ref(), depth, problem.spacing)
+                };
+                match found {
+                    Ok(found) => points.extend(found),
+                    Err(GeometryError::Vanished { .. }) => break,
+                    Err(error) => return Err(fail(error)),
+                }
+            }
+        }
+        Ok(points)
+    }
+}
+
+fn count_on<const D: usize>(measure: f64, spacing: f64) -> usize {
+    (measure / spacing.powi(D as i32 - 1)).round().max(1.0) as usize
+}
+
+/// A layer within a body.
+fn inside<const D: usize>(
+    body: &dyn Surface<D>,
+    depth: f64,
+    spacing: f64,
+) -> Result<Vec<[f64; D]>, GeometryError> {
+    let layer = body.inset(depth)?;
+    let points = layer.sample(count_on::<D>(layer.measure(), spacing))?;
+    Ok(points.into_iter().map(|hit| hit.point).collect())
+}
+
+/// A layer around a body: even points of its surface moved out along their normals, those that come too near to
+/// another part of the surface left out. Corners stay open.
+fn outside<const D: usize>(
+    body: &dyn Surface<D>,
+    depth: f64,
+    spacing: f64,
+) -> Result<Vec<[f64; D]>, GeometryError> {
+    let points = body.sample(count_on::<D>(body.measure(), spacing))?;
+    let moved = |hit: Closest<D>| point::add_scaled(hit.point, depth, hit.normal);
+    Ok(points
+        .into_iter()
+        .map(moved)
+        .filter(|&p| body.closest(p).distance > 0.99 * depth)
+        .collect())
+}
