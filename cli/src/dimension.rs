@@ -5,11 +5,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sphpack_geometry::{
-    Ball, BodyFormat, Cuboid, Cylinder, Ellipsoid, GeometryError, Outline, Placed, Similarity,
-    Soup, Surface, Torus,
+    Ball, BodyFormat, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed,
+    Similarity, Soup, Surface, Torus,
 };
 
 use crate::body_file;
+use crate::precedence::Cuttable;
 use crate::scene::{BodySpec, Shape};
 
 /// A body's surface, and its outline for pictures.
@@ -18,6 +19,8 @@ pub(crate) struct Built<const D: usize> {
     pub(crate) surface: Arc<dyn Surface<D>>,
     /// In 2-D, the closed loops to draw.
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
+    /// Where it is a mesh, the same one.
+    pub(crate) mesh: Option<Arc<Mesh>>,
     /// Where it comes from a file, the format and the number of triangles or points in it.
     pub(crate) read: Option<(BodyFormat, usize)>,
     /// What was mended, a sentence each.
@@ -30,8 +33,28 @@ impl<const D: usize> Built<D> {
         Self {
             surface,
             loops,
+            mesh: None,
             read: None,
             repairs: Vec::new(),
+        }
+    }
+}
+
+impl Built<2> {
+    /// A body by its outline.
+    pub(crate) fn of_outline(outline: Outline) -> Self {
+        let loops = outline.loops().map(<[_]>::to_vec).collect();
+        Self::new(Arc::new(outline), loops)
+    }
+}
+
+impl Built<3> {
+    /// A body by its mesh.
+    pub(crate) fn of_mesh(mesh: Mesh) -> Self {
+        let mesh = Arc::new(mesh);
+        Self {
+            mesh: Some(Arc::clone(&mesh)),
+            ..Self::new(mesh, Vec::new())
         }
     }
 }
@@ -40,7 +63,7 @@ impl<const D: usize> Built<D> {
 pub(crate) struct Space<const D: usize>;
 
 /// What differs between the plane and space; [`Space<2>`] and [`Space<3>`] only.
-pub(crate) trait Dimension<const D: usize> {
+pub(crate) trait Dimension<const D: usize>: Cuttable<D> {
     /// The body's scale, rotation and translation.
     fn place(body: &BodySpec) -> Result<Similarity<D>, GeometryError>;
 
@@ -53,7 +76,7 @@ pub(crate) trait Dimension<const D: usize> {
 }
 
 /// The first `D` entries; callers have checked that there are as many.
-fn array<const D: usize>(values: &[f64]) -> [f64; D] {
+pub(crate) fn array<const D: usize>(values: &[f64]) -> [f64; D] {
     std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
 }
 
@@ -139,10 +162,9 @@ impl Dimension<2> for Space<2> {
             _ => return Err(wrong_dimension(shape, 2)),
         };
         let outline = outline.transformed(place);
-        let loops = outline.loops().map(<[_]>::to_vec).collect();
         Ok(Built {
             read,
-            ..Built::new(Arc::new(outline), loops)
+            ..Built::of_outline(outline)
         })
     }
 }
@@ -199,7 +221,7 @@ impl Dimension<3> for Space<3> {
                 return Ok(Built {
                     read: Some((format, triangles)),
                     repairs: mended.done.iter().map(ToString::to_string).collect(),
-                    ..Built::new(Arc::new(mended.mesh), Vec::new())
+                    ..Built::of_mesh(mended.mesh)
                 });
             }
             _ => return Err(wrong_dimension(shape, 3)),
@@ -208,7 +230,7 @@ impl Dimension<3> for Space<3> {
     }
 }
 
-/// A closed curve as a fine polygon.
+/// A closed curve as a polygon for pictures.
 fn ring(at: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 2]> {
     (0..360).map(|k| at(TAU * f64::from(k) / 360.0)).collect()
 }

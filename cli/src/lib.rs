@@ -40,6 +40,7 @@ mod methods;
 mod overlap;
 pub mod picture;
 mod plan;
+mod precedence;
 mod report;
 mod run;
 pub mod scene;

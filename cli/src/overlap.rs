@@ -29,21 +29,11 @@ pub(crate) fn first<const D: usize>(
     spacing: f64,
     claims: impl Fn(usize) -> bool,
 ) -> Option<Overlap<D>> {
-    let slack = TOUCHING_OVER_SPACING * spacing;
     let claiming: Vec<usize> = (0..bodies.len()).filter(|&i| claims(i)).collect();
     for (n, &i) in claiming.iter().enumerate() {
         for &j in &claiming[n + 1..] {
             let (a, b) = (bodies[i].surface.as_ref(), bodies[j].surface.as_ref());
-            let common = common(a.bounds(), b.bounds());
-            if (0..D).any(|k| common.max[k] - common.min[k] <= slack) {
-                continue;
-            }
-            let places = [(a, b), (b, a)].map(|(a, b)| deepest(a, b, common, spacing, slack));
-            let best = places
-                .into_iter()
-                .flatten()
-                .max_by(|p, q| p.1.total_cmp(&q.1));
-            if let Some((place, depth)) = best {
+            if let Some((place, depth)) = between(a, b, spacing) {
                 return Some(Overlap {
                     bodies: [i, j],
                     place,
@@ -53,6 +43,24 @@ pub(crate) fn first<const D: usize>(
         }
     }
     None
+}
+
+/// The deepest place found that two bodies claim, and how deep it is, if that is more than a tenth of ∆s.
+pub(crate) fn between<const D: usize>(
+    a: &dyn Surface<D>,
+    b: &dyn Surface<D>,
+    spacing: f64,
+) -> Option<([f64; D], f64)> {
+    let slack = TOUCHING_OVER_SPACING * spacing;
+    let common = common(a.bounds(), b.bounds());
+    if (0..D).any(|k| common.max[k] - common.min[k] <= slack) {
+        return None;
+    }
+    let places = [(a, b), (b, a)].map(|(a, b)| deepest(a, b, common, spacing, slack));
+    places
+        .into_iter()
+        .flatten()
+        .max_by(|p, q| p.1.total_cmp(&q.1))
 }
 
 fn common<const D: usize>(a: Bounds<D>, b: Bounds<D>) -> Bounds<D> {

@@ -9,9 +9,9 @@ use sphpack_packing::{Body, Estimate, FrozenLayout, PackingError, Problem};
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Dimension, Space};
-use crate::overlap;
 use crate::report::kibibytes;
 use crate::scene::{Fault, Frozen, Role, Scene};
+use crate::{overlap, precedence};
 
 /// What a scene will need.
 #[derive(Debug, Clone, PartialEq)]
@@ -171,10 +171,7 @@ where
     Space<D>: Dimension<D>,
 {
     let begin = Instant::now();
-    let mut bodies = Vec::new();
-    let mut loops = Vec::new();
-    let mut repairs = Vec::new();
-    let mut read = Vec::new();
+    let mut all = Vec::new();
     for body in &scene.body {
         let file = body.shape.file().map(|file| scene.resolve(file));
         let built = Space::<D>::place(body)
@@ -197,14 +194,24 @@ where
                     source,
                 },
             })?;
-        loops.extend(built.loops);
-        repairs.push(built.repairs);
+        all.push(built);
+    }
+    let mut read = Vec::new();
+    for (body, built) in scene.body.iter().zip(&all) {
         read.extend(built.read.map(|(format, count)| ReadBody {
             name: body.name.clone(),
             format,
             count,
             size: built.surface.bounds().size().to_vec(),
         }));
+    }
+    precedence::settle(scene, &mut all)?;
+    let mut bodies = Vec::new();
+    let mut loops = Vec::new();
+    let mut repairs = Vec::new();
+    for (body, built) in scene.body.iter().zip(all) {
+        loops.extend(built.loops);
+        repairs.push(built.repairs);
         bodies.push(Body {
             name: body.name.clone(),
             surface: built.surface,
@@ -277,7 +284,7 @@ fn refuse_overlaps<const D: usize>(scene: &Scene, bodies: &[Body<D>]) -> Result<
         path: scene.path.clone(),
         at: None,
         message: format!(
-            "bodies \"{a}\" and \"{b}\" overlap: ({}) is in both, {:.2} spacings deep; move one, or cut the common part from one (bodies may touch)",
+            "bodies \"{a}\" and \"{b}\" overlap: ({}) is in both, {:.2} spacings deep; give the one that is to keep the common part a higher precedence (precedence = 1), or move one (bodies may touch)",
             place.join(", "),
             found.depth / scene.spacing
         ),

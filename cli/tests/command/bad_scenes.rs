@@ -181,6 +181,7 @@ fn solids_that_overlap_are_named() {
             "overlap.toml",
             "\"disc\" and \"plate\" overlap",
             "is in both",
+            "precedence = 1",
             "move one",
         ],
     );

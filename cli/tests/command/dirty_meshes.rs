@@ -4,10 +4,10 @@ use serde_json::Value;
 
 use crate::{Desk, stl};
 
-type Triangles = Vec<[[f32; 3]; 3]>;
+pub(crate) type Triangles = Vec<[[f32; 3]; 3]>;
 
 /// A sphere of radius ½ about `center`: an icosahedron with every triangle cut in four, four times; 5,120 triangles.
-fn sphere(center: [f64; 3]) -> Triangles {
+pub(crate) fn sphere(center: [f64; 3]) -> Triangles {
     let g = 0.5 * (1.0 + 5.0_f64.sqrt());
     let mut corners: Vec<[f64; 3]> = Vec::new();
     for (a, b) in [(1.0, g), (1.0, -g), (-1.0, g), (-1.0, -g)] {

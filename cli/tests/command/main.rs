@@ -5,10 +5,12 @@ mod bad_outputs;
 mod bad_scenes;
 mod body_formats;
 mod checking;
+mod dirty_formats;
 mod dirty_meshes;
 mod good_runs;
 mod interrupts;
 mod measuring;
+mod precedence;
 
 use std::fs;
 use std::path::Path;

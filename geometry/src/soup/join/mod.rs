@@ -2,6 +2,7 @@
 
 mod cuts;
 mod faces;
+mod minus;
 mod tiles;
 
 use std::collections::BTreeSet;
