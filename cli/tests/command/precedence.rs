@@ -227,7 +227,7 @@ fn what_is_refused() {
                 "body \"disc\": precedence is for solid bodies",
             ],
         ),
-        ("half.toml", &["half.toml", "precedence"]),
+        ("half.toml", &["half.toml:7:14", "0.5"]),
     ] {
         let mut parts = parts.to_vec();
         parts.push(name);
