@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use sphpack_geometry::{
     Ball, BodyFormat, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed,
-    Similarity, Surface, Torus,
+    Similarity, Soup, Surface, Torus,
 };
 
 use crate::body_file;
+use crate::precedence::Cuttable;
 use crate::scene::{BodySpec, Shape};
 
 /// A body's surface, and its outline for pictures.
@@ -18,15 +19,51 @@ pub(crate) struct Built<const D: usize> {
     pub(crate) surface: Arc<dyn Surface<D>>,
     /// In 2-D, the closed loops to draw.
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
-    /// Where it comes from a file, the format and the number of triangles or points.
+    /// Where it is a mesh, the same one.
+    pub(crate) mesh: Option<Arc<Mesh>>,
+    /// Where it comes from a file, the format and the number of triangles or points in it.
     pub(crate) read: Option<(BodyFormat, usize)>,
+    /// What was mended, a sentence each.
+    pub(crate) repairs: Vec<String>,
+}
+
+impl<const D: usize> Built<D> {
+    /// A body by formula.
+    fn new(surface: Arc<dyn Surface<D>>, loops: Vec<Vec<[f64; 2]>>) -> Self {
+        Self {
+            surface,
+            loops,
+            mesh: None,
+            read: None,
+            repairs: Vec::new(),
+        }
+    }
+}
+
+impl Built<2> {
+    /// A body by its outline.
+    pub(crate) fn of_outline(outline: Outline) -> Self {
+        let loops = outline.loops().map(<[_]>::to_vec).collect();
+        Self::new(Arc::new(outline), loops)
+    }
+}
+
+impl Built<3> {
+    /// A body by its mesh.
+    pub(crate) fn of_mesh(mesh: Mesh) -> Self {
+        let mesh = Arc::new(mesh);
+        Self {
+            mesh: Some(Arc::clone(&mesh)),
+            ..Self::new(mesh, Vec::new())
+        }
+    }
 }
 
 /// The plane or space.
 pub(crate) struct Space<const D: usize>;
 
 /// What differs between the plane and space; [`Space<2>`] and [`Space<3>`] only.
-pub(crate) trait Dimension<const D: usize> {
+pub(crate) trait Dimension<const D: usize>: Cuttable<D> {
     /// The body's scale, rotation and translation.
     fn place(body: &BodySpec) -> Result<Similarity<D>, GeometryError>;
 
@@ -39,7 +76,7 @@ pub(crate) trait Dimension<const D: usize> {
 }
 
 /// The first `D` entries; callers have checked that there are as many.
-fn array<const D: usize>(values: &[f64]) -> [f64; D] {
+pub(crate) fn array<const D: usize>(values: &[f64]) -> [f64; D] {
     std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
 }
 
@@ -71,38 +108,35 @@ impl Dimension<2> for Space<2> {
             Shape::Circle { center, radius } => {
                 let ball = Ball::new(place.point(array(center)), radius * place.scale())?;
                 let (middle, radius) = (ball.center(), ball.radius());
-                return Ok(Built {
-                    surface: Arc::new(ball),
-                    loops: vec![ring(|angle| {
+                return Ok(Built::new(
+                    Arc::new(ball),
+                    vec![ring(|angle| {
                         [
                             middle[0] + radius * angle.cos(),
                             middle[1] + radius * angle.sin(),
                         ]
                     })],
-                    read: None,
-                });
+                ));
             }
             Shape::Ellipse { center, semi_axes } => {
                 let (c, a): ([f64; 2], [f64; 2]) = (array(center), array(semi_axes));
-                return Ok(Built {
-                    surface: Arc::new(Placed::new(Arc::new(Ellipsoid::new(c, a)?), *place)),
-                    loops: vec![ring(|angle| {
+                return Ok(Built::new(
+                    Arc::new(Placed::new(Arc::new(Ellipsoid::new(c, a)?), *place)),
+                    vec![ring(|angle| {
                         place.point([c[0] + a[0] * angle.cos(), c[1] + a[1] * angle.sin()])
                     })],
-                    read: None,
-                });
+                ));
             }
             Shape::Box { min, max } => {
                 let (a, b): ([f64; 2], [f64; 2]) = (array(min), array(max));
-                return Ok(Built {
-                    surface: Arc::new(Placed::new(Arc::new(Cuboid::new(a, b)?), *place)),
-                    loops: vec![
+                return Ok(Built::new(
+                    Arc::new(Placed::new(Arc::new(Cuboid::new(a, b)?), *place)),
+                    vec![
                         [a, [b[0], a[1]], b, [a[0], b[1]]]
                             .map(|corner| place.point(corner))
                             .to_vec(),
                     ],
-                    read: None,
-                });
+                ));
             }
             Shape::Polygon { points } => {
                 Outline::polygon(&points.iter().map(|p| array(p)).collect::<Vec<_>>())?
@@ -129,9 +163,8 @@ impl Dimension<2> for Space<2> {
         };
         let outline = outline.transformed(place);
         Ok(Built {
-            loops: outline.loops().map(<[_]>::to_vec).collect(),
-            surface: Arc::new(outline),
             read,
+            ..Built::of_outline(outline)
         })
     }
 }
@@ -150,7 +183,6 @@ impl Dimension<3> for Space<3> {
         file: Option<&Path>,
         place: &Similarity<3>,
     ) -> Result<Built<3>, GeometryError> {
-        let mut read = None;
         let surface: Arc<dyn Surface<3>> = match shape {
             Shape::Sphere { center, radius } => Arc::new(Ball::new(
                 place.point(array(center)),
@@ -182,21 +214,23 @@ impl Dimension<3> for Space<3> {
             )?),
             Shape::File(path) => {
                 let path = file.unwrap_or(path);
-                let (format, mesh) = body_file::read(path, Mesh::from_bytes)?;
-                read = Some((format, mesh.triangles().len()));
-                Arc::new(mesh.transformed(place).map_err(|e| e.in_file(path))?)
+                let (format, (triangles, mended)) = body_file::read(path, |format, bytes| {
+                    let soup = Soup::from_bytes(format, bytes)?;
+                    Ok((soup.triangles().len(), soup.transformed(place)?.body()?))
+                })?;
+                return Ok(Built {
+                    read: Some((format, triangles)),
+                    repairs: mended.done.iter().map(ToString::to_string).collect(),
+                    ..Built::of_mesh(mended.mesh)
+                });
             }
             _ => return Err(wrong_dimension(shape, 3)),
         };
-        Ok(Built {
-            surface,
-            loops: Vec::new(),
-            read,
-        })
+        Ok(Built::new(surface, Vec::new()))
     }
 }
 
-/// A closed curve as a fine polygon.
+/// A closed curve as a polygon for pictures.
 fn ring(at: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 2]> {
     (0..360).map(|k| at(TAU * f64::from(k) / 360.0)).collect()
 }

@@ -33,11 +33,14 @@ mod cloud;
 pub mod command;
 mod dimension;
 mod error;
+mod examined;
 pub mod files;
 mod labels;
 mod methods;
+mod overlap;
 pub mod picture;
 mod plan;
+mod precedence;
 mod report;
 mod run;
 pub mod scene;
@@ -47,6 +50,7 @@ mod table;
 pub use body_file::{ReadBody, body_format};
 pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};
+pub use examined::{DefectFound, Examine, Examined, HoleFound, MeshFindings, ShellFound, Thin};
 pub use plan::{Plan, plan};
 pub use report::{
     BodyReport, Counts, Density, History, MassReport, Report, Residual, SCHEMA, SecondsReport,

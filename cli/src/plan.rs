@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use sphpack_geometry::GeometryError;
 use sphpack_neighbors::{Bounds, Domain};
 use sphpack_packing::{Body, Estimate, FrozenLayout, PackingError, Problem};
 
@@ -9,7 +10,8 @@ use crate::Error;
 use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Dimension, Space};
 use crate::report::kibibytes;
-use crate::scene::{Fault, Frozen, Scene};
+use crate::scene::{Fault, Frozen, Role, Scene};
+use crate::{overlap, precedence};
 
 /// What a scene will need.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +24,8 @@ pub struct Plan {
     pub estimate: Estimate,
     /// The memory that may be used, bytes.
     pub allowed_bytes: f64,
+    /// What was mended of each body, a sentence each.
+    pub repairs: Vec<Vec<String>>,
 }
 
 /// A scene's problem.
@@ -31,6 +35,8 @@ pub(crate) struct Prepared<const D: usize> {
     pub(crate) resolved: Scene,
     /// In 2-D, the bodies' closed loops.
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
+    /// What was mended of each body, a sentence each.
+    pub(crate) repairs: Vec<Vec<String>>,
     /// What the bodies' files hold.
     pub(crate) read: Vec<ReadBody>,
     /// Seconds spent on building the bodies.
@@ -50,21 +56,16 @@ const MAX_PARTICLES: f64 = 4e9;
 pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
     let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
     let dimension = dimension(scene)?;
-    let (read, estimate) = match dimension {
-        2 => {
-            let (prepared, estimate) = prepare::<2>(scene, allowed_bytes)?;
-            (prepared.read, estimate)
-        }
-        _ => {
-            let (prepared, estimate) = prepare::<3>(scene, allowed_bytes)?;
-            (prepared.read, estimate)
-        }
-    };
+    let (read, repairs, estimate) = match dimension {
+        2 => prepare::<2>(scene, allowed_bytes).map(|(p, e)| (p.read, p.repairs, e)),
+        _ => prepare::<3>(scene, allowed_bytes).map(|(p, e)| (p.read, p.repairs, e)),
+    }?;
     Ok(Plan {
         dimension,
         read,
         estimate,
         allowed_bytes,
+        repairs,
     })
 }
 
@@ -170,19 +171,22 @@ where
     Space<D>: Dimension<D>,
 {
     let begin = Instant::now();
-    let mut bodies = Vec::new();
-    let mut loops = Vec::new();
-    let mut read = Vec::new();
+    let mut all = Vec::new();
     for body in &scene.body {
         let file = body.shape.file().map(|file| scene.resolve(file));
         let built = Space::<D>::place(body)
             .and_then(|place| Space::<D>::build(&body.shape, file.as_deref(), &place))
             .map_err(|source| match source {
                 // The message names the file already.
-                sphpack_geometry::GeometryError::InFile { path, source } => Error::Input {
+                GeometryError::InFile { path, source } => Error::Input {
+                    message: match *source {
+                        GeometryError::Defective { .. } => {
+                            format!("{source}. `sphpack check {path}` says more, and mends what can be mended")
+                        }
+                        _ => source.to_string(),
+                    },
                     path: path.into(),
                     at: None,
-                    message: source.to_string(),
                 },
                 source => Error::Body {
                     path: scene.path.clone(),
@@ -190,19 +194,31 @@ where
                     source,
                 },
             })?;
-        loops.extend(built.loops);
+        all.push(built);
+    }
+    let mut read = Vec::new();
+    for (body, built) in scene.body.iter().zip(&all) {
         read.extend(built.read.map(|(format, count)| ReadBody {
             name: body.name.clone(),
             format,
             count,
             size: built.surface.bounds().size().to_vec(),
         }));
+    }
+    precedence::settle(scene, &mut all)?;
+    let mut bodies = Vec::new();
+    let mut loops = Vec::new();
+    let mut repairs = Vec::new();
+    for (body, built) in scene.body.iter().zip(all) {
+        loops.extend(built.loops);
+        repairs.push(built.repairs);
         bodies.push(Body {
             name: body.name.clone(),
             surface: built.surface,
             inset_over_spacing: body.surface.0,
         });
     }
+    refuse_overlaps(scene, &bodies)?;
     let domain = domain(scene, &bodies);
     let problem = Problem {
         domain,
@@ -248,11 +264,31 @@ where
             problem,
             resolved,
             loops,
+            repairs,
             read,
             seconds: begin.elapsed().as_secs_f64(),
         },
         estimate,
     ))
+}
+
+/// Solid bodies may touch, but not claim the same room. What is in a void or a container is another matter.
+fn refuse_overlaps<const D: usize>(scene: &Scene, bodies: &[Body<D>]) -> Result<(), Error> {
+    let is_solid = |i: usize| scene.body[i].role == Role::Solid;
+    let Some(found) = overlap::first(bodies, scene.spacing, is_solid) else {
+        return Ok(());
+    };
+    let [a, b] = found.bodies.map(|i| &bodies[i].name);
+    let place: Vec<String> = found.place.iter().map(|x| format!("{x:.4}")).collect();
+    Err(Error::Scene {
+        path: scene.path.clone(),
+        at: None,
+        message: format!(
+            "bodies \"{a}\" and \"{b}\" overlap: ({}) is in both, {:.2} spacings deep; give the one that is to keep the common part a higher precedence (precedence = 1), or move one (bodies may touch)",
+            place.join(", "),
+            found.depth / scene.spacing
+        ),
+    })
 }
 
 /// The same problem with the kernel that judges.

@@ -184,6 +184,8 @@ pub struct BodyReport {
     pub volume: f64,
     /// Density × `volume`.
     pub mass: f64,
+    /// What was mended before it was packed, a sentence each.
+    pub repairs: Vec<String>,
 }
 
 /// What a correction of masses came to.

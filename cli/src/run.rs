@@ -95,6 +95,7 @@ where
         resolved,
         loops,
         read,
+        repairs,
         seconds: built,
     } = prepared;
     let mut packed = pack(&problem, scene, observer)?;
@@ -117,6 +118,9 @@ where
     let table = table(scene, &solution).kept_by_id(&keep);
     let mut report = report(scene, resolved, &solution, &table, built);
     report.mass_correction = masses.map(MassReport::from);
+    for (body, repairs) in report.bodies.iter_mut().zip(repairs) {
+        body.repairs = repairs;
+    }
     Ok(Outcome {
         packing: wrap(solution),
         table,
@@ -216,6 +220,7 @@ fn report<const D: usize>(
                 volume_true: body.surface.volume(),
                 volume,
                 mass: spec.density * volume,
+                repairs: Vec::new(),
             }
         })
         .collect();

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use sphpack_geometry::{Mesh, Outline, Surface};
+use sphpack_geometry::{Mesh, Outline, Soup, Surface};
 
 /// A sphere of radius 1 of `rows` × 2 `rows` quadrilaterals, each two triangles.
 fn sphere(rows: u32) -> Mesh {
@@ -92,6 +92,13 @@ fn queries(c: &mut Criterion) {
             BatchSize::LargeInput,
         );
     });
+    let large = sphere(500);
+    let place = |v: u32| large.vertices()[v as usize];
+    let loose: Vec<[[f64; 3]; 3]> = large.triangles().iter().map(|t| t.map(place)).collect();
+    group.bench_function("1M loose triangles, welded, checked and built", |b| {
+        b.iter(|| Soup::from_loose(&loose).and_then(|soup| soup.body()));
+    });
+    drop(loose);
     group.bench_function("starfish inset", |b| b.iter(|| outline.inset(0.025)));
     group.finish();
     let mut group = c.benchmark_group("sampling");

@@ -1,5 +1,6 @@
 //! A tree of boxes around primitives: who is nearest, who is hit.
 
+use rayon::prelude::*;
 use sphpack_neighbors::{Bounds, point};
 
 /// Primitives per leaf, at most.
@@ -164,10 +165,55 @@ impl<const D: usize> Bvh<D> {
 
     /// Calls `each` for every primitive whose leaf's box overlaps `range` (a superset of those that overlap it).
     pub fn overlapping(&self, range: &Bounds<D>, each: impl FnMut(usize)) {
-        self.visit(
-            |b| (0..D).all(|k| b.min[k] <= range.max[k] && range.min[k] <= b.max[k]),
-            each,
-        );
+        self.visit(|b| overlap(b, range), each);
+    }
+
+    /// The pairs i < j of primitives whose `boxes` overlap and that `keep(i, j)`; found in parallel, and sorted, so
+    /// that they are the same for any number of threads.
+    pub(crate) fn pairs(
+        &self,
+        boxes: &[Bounds<D>],
+        keep: impl Fn(usize, usize) -> bool + Sync,
+    ) -> Vec<(u32, u32)> {
+        let mut pairs: Vec<(u32, u32)> = self
+            .order
+            .par_chunks(1024)
+            .flat_map_iter(|chunk| {
+                let mut found = Vec::new();
+                for &i in chunk {
+                    let range = &boxes[i as usize];
+                    self.overlapping(range, |j| {
+                        if j > i as usize && overlap(range, &boxes[j]) && keep(i as usize, j) {
+                            found.push((i, j as u32));
+                        }
+                    });
+                }
+                found
+            })
+            .collect();
+        pairs.par_sort_unstable();
+        pairs
+    }
+
+    /// How many nodes the tree has; they are stored depth first, each before its children.
+    pub(crate) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// What is below node `index`: its two children, or its primitives.
+    #[inline]
+    pub(crate) fn below(&self, index: usize) -> Below<'_> {
+        let node = &self.nodes[index];
+        if node.count == 0 {
+            return Below::Nodes(index + 1, node.link as usize);
+        }
+        let first = node.link as usize;
+        Below::Primitives(&self.order[first..first + node.count as usize])
+    }
+
+    /// The box of node `index`.
+    pub(crate) fn node_bounds(&self, index: usize) -> &Bounds<D> {
+        &self.nodes[index].bounds
     }
 
     /// Calls `each` for every primitive whose leaf's box the ray `origin + t direction`, t ≥ 0, meets (a superset of
@@ -175,6 +221,19 @@ impl<const D: usize> Bvh<D> {
     pub fn along_ray(&self, origin: [f64; D], direction: [f64; D], each: impl FnMut(usize)) {
         self.visit(|b| ray_meets(b, origin, direction), each);
     }
+}
+
+/// What is below a node.
+pub(crate) enum Below<'a> {
+    /// Its children.
+    Nodes(usize, usize),
+    /// The numbers of a leaf's primitives.
+    Primitives(&'a [u32]),
+}
+
+/// Whether two boxes have a point in common.
+fn overlap<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> bool {
+    (0..D).all(|k| a.min[k] <= b.max[k] && b.min[k] <= a.max[k])
 }
 
 /// Whether the ray `origin + t direction`, t ≥ 0, meets the box, faces included, with a hair of tolerance.

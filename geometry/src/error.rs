@@ -144,6 +144,17 @@ pub enum GeometryError {
         /// The middle of the first such edge, scene units.
         place: [f64; 3],
     },
+    /// A mesh has defects that cannot be mended unasked.
+    #[error("{defects}")]
+    Defective {
+        /// Every kind of defect with its count, a place and the cure.
+        defects: String,
+    },
+    /// A mesh cannot be cut by another.
+    #[error(
+        "the lines where the two meshes cross do not come out as closed curves; move or turn one of them a little, or cut the body in a mesh editor"
+    )]
+    NotCut,
     /// A mesh has no triangles, or encloses no volume.
     #[error(
         "the mesh encloses no volume ({triangles} triangles left after removing degenerate ones); export a closed surface"

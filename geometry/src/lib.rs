@@ -28,6 +28,7 @@
 //! | 2-D: polygons, sampled curves, airfoils | [`Outline`] |
 //! | 3-D: closed triangle meshes | [`Mesh`] |
 //! | files: STL, OBJ, PLY; rows of x,y, airfoils, SVG | [`Mesh::read`], [`Outline::read`], [`BodyFormat`], [`Solid`] |
+//! | triangles with defects: check, mend, join | [`Soup`], [`Soup::read`], [`FastWinding`] |
 //! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
 //! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`] |
 //! | points: even ([`Surface::sample`]), by a weight, for thin bodies | [`sample_weighted`], [`sample_particles`], [`thickness()`] |
@@ -51,9 +52,11 @@ mod sampling;
 mod segment;
 mod shapes;
 mod similarity;
+mod soup;
 mod surface;
 mod thickness;
 mod thin;
+mod winding;
 
 pub use bvh::Bvh;
 pub use error::GeometryError;
@@ -68,6 +71,11 @@ pub use sample::sample_weighted;
 pub use sampling::SAGITTA_OVER_SIZE;
 pub use shapes::{Ball, Cuboid, Cylinder, Ellipsoid, Torus};
 pub use similarity::Similarity;
+pub use soup::{
+    Defect, DefectKind, Hole, HoleLimit, Mended, MeshReport, Repair, Repaired, Shell, ShellRole,
+    Soup,
+};
 pub use surface::{Closest, Feature, Features, Surface};
 pub use thickness::thickness;
 pub use thin::{SurfaceSamples, sample_particles};
+pub use winding::FastWinding;

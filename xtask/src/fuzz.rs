@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use sphpack_geometry::{BodyFormat, Mesh, Outline};
+use sphpack_geometry::{BodyFormat, Outline, Soup};
 
 use crate::mangle::Mangler;
 use crate::root;
@@ -153,7 +153,9 @@ fn read_all(
 /// Reads the input in its format, and in that which it looks like.
 fn is_body(format: BodyFormat, input: &[u8]) -> bool {
     let build = |format: BodyFormat| match format.dimension() {
-        3 => Mesh::from_bytes(format, input).is_ok(),
+        3 => Soup::from_bytes(format, input)
+            .and_then(|soup| soup.body())
+            .is_ok(),
         _ => Outline::from_bytes(format, input).is_ok(),
     };
     if let Ok(other) = BodyFormat::detect(input, format.extension())

@@ -15,6 +15,7 @@ Examples:
   sphpack init cylinder.toml                     a commented scene to start from
   sphpack pack cylinder.toml                     writes cylinder.vtu
   sphpack pack body.stl --spacing 0.02           a body, without a scene
+  sphpack check body.stl                         is it closed, which way does it face, does it overlap itself?
   sphpack quality particles.csv --spacing 0.1    how even are anybody's particles?
 
 Exit status: 0 done; 2 bad input; 3 not converged (files are written); 130 interrupted (files are written); 1 anything else."
@@ -28,6 +29,8 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Pack a scene, or a body: geometry in, particles out
     Pack(PackArguments),
+    /// Say what is wrong with a body, and mend it
+    Check(CheckArguments),
     /// Measure how even anybody's particles are
     Quality(QualityArguments),
     /// Write a commented scene with every key
@@ -92,6 +95,42 @@ pub(super) struct PackArguments {
     /// Print nothing but errors
     #[arg(short, long)]
     pub(super) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Of a mesh: holes, edges of more than two triangles, triangles that face the wrong way, shells inside out, shells that overlap or touch, triangles that cross, are doubled or have no area; each with a count and a place. What `sphpack pack` mends by itself (it says so): doubled and degenerate triangles, wrong facing, holes too small to matter, shells that overlap. Larger holes are never closed unasked.
+
+A shell inside a solid one is a cavity if it faces inward; facing outward it adds nothing and is left out.
+
+Examples:
+  sphpack check body.stl                                     what is wrong, and whether it can be packed
+  sphpack check body.stl --spacing 0.02                      also what is thinner than a particle
+  sphpack check body.stl --repair mended.stl                 mends it and writes the result
+  sphpack check body.stl --repair mended.stl --fill-holes 5  also closes holes up to 5 across, as flat as can be
+
+Exit status: 0 where the body can be packed (after what pack mends by itself, or the repair asked for); 2 where not.")]
+pub(super) struct CheckArguments {
+    /// The body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
+    pub(super) body: PathBuf,
+    /// Write the mended mesh here (binary .stl); nothing where it cannot be mended
+    #[arg(long, value_name = "FILE")]
+    pub(super) repair: Option<PathBuf>,
+    /// With --repair: close holes up to this size across
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    pub(super) fill_holes: Option<f64>,
+    /// Say what is thinner than this particle spacing
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    pub(super) spacing: Option<f64>,
+    /// Write the findings here (JSON)
+    #[arg(long, value_name = "FILE")]
+    pub(super) report: Option<PathBuf>,
+    /// Print the findings as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Replace files that exist
+    #[arg(long)]
+    pub(super) force: bool,
 }
 
 #[derive(Debug, Args)]

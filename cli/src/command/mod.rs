@@ -4,6 +4,7 @@
 //! Nothing is coloured. Exit statuses: see [`crate::DONE`] and its neighbours.
 
 mod arguments;
+mod check;
 mod init;
 mod interrupt;
 mod list;
@@ -34,6 +35,7 @@ pub fn main() -> ExitCode {
     };
     let result = match arguments.command {
         Command::Pack(pack) => pack::run(&pack),
+        Command::Check(check) => check::run(&check),
         Command::Quality(quality) => quality::run(&quality),
         Command::Init(init) => init::run(&init),
         Command::List { what } => list::run(what),

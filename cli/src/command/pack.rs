@@ -1,6 +1,7 @@
 //! `sphpack pack`.
 
 use std::borrow::Cow;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -40,13 +41,18 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let files = Files::new(arguments, &scene, dimension)?;
     threads(arguments.threads)?;
     if arguments.dry_run {
-        return dry_run(&scene);
+        return dry_run(&scene, arguments.quiet);
     }
     interrupt::watch(arguments.quiet)?;
     let mut watcher = Watcher::new(arguments.quiet);
     let outcome = pack(&scene, &Options::default(), &mut watcher);
     watcher.end();
     let mut outcome = outcome?;
+    if !arguments.quiet {
+        for body in &outcome.report.bodies {
+            warn(&body.name, &body.repairs);
+        }
+    }
     let written = files.write(&scene, &mut outcome, arguments.force, begin)?;
     if !arguments.quiet {
         say(&summary::of(&outcome, &written));
@@ -56,6 +62,16 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
         StopReason::Interrupted => INTERRUPTED,
         StopReason::IterationLimit | StopReason::Stagnated => NOT_CONVERGED,
     })
+}
+
+/// Says on standard error what was mended.
+fn warn(body: &str, repairs: &[String]) {
+    for words in repairs {
+        let _ = writeln!(
+            std::io::stderr(),
+            "sphpack: warning: body \"{body}\": {words}"
+        );
+    }
 }
 
 fn stop_reason(outcome: &Outcome) -> StopReason {
@@ -143,8 +159,13 @@ fn threads(number: Option<usize>) -> Result<(), Error> {
         .map_err(|e| Error::System(format!("{number} threads cannot be started: {e}")))
 }
 
-fn dry_run(scene: &Scene) -> Result<u8, Error> {
+fn dry_run(scene: &Scene, is_quiet: bool) -> Result<u8, Error> {
     let plan = plan(scene, None)?;
+    if !is_quiet {
+        for (body, repairs) in scene.body.iter().zip(&plan.repairs) {
+            warn(&body.name, repairs);
+        }
+    }
     let estimate = plan.estimate;
     let gibibytes = |bytes: f64| bytes / 1_073_741_824.0;
     let evaluations = typical_evaluations(&scene.packing);

@@ -1,7 +1,7 @@
 //! Whether a body makes sense, as far as that can be said without building it.
 
 use super::check::{Checked, Key, fault, finite, positive, vector};
-use super::{BodySpec, Shape};
+use super::{BodySpec, Role, Shape};
 
 /// Whether a body's numbers are in their ranges; `index` is its place in the scene.
 pub(super) fn check_body(body: &BodySpec, index: usize) -> Checked {
@@ -19,6 +19,14 @@ pub(super) fn check_body(body: &BodySpec, index: usize) -> Checked {
     check_shape(&body.shape, &called, &at("shape"))?;
     positive(&at("scale"), &format!("{called}: scale"), body.scale)?;
     positive(&at("density"), &format!("{called}: density"), body.density)?;
+    if body.precedence != 0 && body.role != Role::Solid {
+        return fault(
+            &at("precedence"),
+            format!(
+                "{called}: precedence is for solid bodies that overlap; leave it out, or make the role \"solid\""
+            ),
+        );
+    }
     let inset = body.surface.0;
     if !(0.0..=10.0).contains(&inset) {
         return fault(

@@ -112,6 +112,9 @@ pub struct BodySpec {
     /// What it is for.
     #[serde(default)]
     pub role: Role,
+    /// Where solid bodies overlap, the one with the higher number keeps the room, and the other is what is left of it.
+    #[serde(default)]
+    pub precedence: i32,
     /// Physical density; mass = density × volume.
     #[serde(default = "one")]
     pub density: f64,
@@ -351,6 +354,7 @@ impl Scene {
                 rotate: None,
                 translate: None,
                 role: Role::Solid,
+                precedence: 0,
                 density: 1.0,
                 surface: Inset::default(),
             }],

@@ -13,7 +13,7 @@ max = [2.0, 2.0]
 # margin = 0.8                   # instead of min and max: a box around the bodies, this far from them (no default)
 # periodic = [false, false]      # axes that wrap around
 
-[[body]]                         # as many as you like; a particle belongs to the first that holds it
+[[body]]                         # as many as you like; solid ones may touch, but overlap only by precedence
 name = "cylinder"
 shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # Other shapes (`sphpack list shapes`):
@@ -27,6 +27,8 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # rotate = { axis = [0.0, 0.0, 1.0], degrees = 0.0 }   # 3-D
 # translate = [0.0, 0.0]
 # role = "solid"                 # solid | container (its inside is the domain: a tank) | void (no particles inside)
+# precedence = 0                 # where solid bodies overlap, the one with the higher number keeps the room, the other
+                                 # is what is left of it (any shape in 2-D; meshes and boxes in 3-D)
 # density = 1.0                  # mass of a particle = density x volume
 # surface = "inset"              # boundary particles half a spacing inside ("inset"), on the surface ("exact"),
                                  # or a number: how far inside, in spacings

@@ -59,13 +59,16 @@ fn stl_files() {
         text_stl(&open),
         &["not closed", "close the holes"],
     );
-    let mut flipped = cube();
-    flipped[4].swap(0, 1);
-    refuse(
-        "flipped.stl",
-        stl(&flipped),
-        &["opposite ways", "consistent"],
-    );
+    // A strip that has only one side.
+    let strip: Vec<[[f32; 3]; 3]> = (0..5)
+        .map(|i| {
+            [i, i + 1, i + 2].map(|k: i32| {
+                let angle = (k % 5) as f32 * 1.3;
+                [angle.cos(), angle.sin(), 0.3 * (k % 5 % 3) as f32]
+            })
+        })
+        .collect();
+    refuse("strip.stl", stl(&strip), &["opposite ways", "consistent"]);
     let flat: Vec<_> = cube()
         .iter()
         .map(|t| t.map(|[x, y, _]| [x, y, 0.0]))

@@ -13,7 +13,10 @@ fn endings_must_be_known() {
         all.extend(arguments);
         desk().refuse(&all, parts);
     };
-    refuse(&["-o", "out.xyz"], &["out.xyz", "vtu, csv, npz, vtp, vtk, ply"]);
+    refuse(
+        &["-o", "out.xyz"],
+        &["out.xyz", "vtu, csv, npz, vtp, vtk, ply"],
+    );
     refuse(&["-o", "out.vtx"], &["did you mean \"vtu\"?"]);
     refuse(&["-o", "out"], &["out", "vtu, csv"]);
     refuse(&["--picture", "out.jpg"], &["out.jpg", "png, svg"]);

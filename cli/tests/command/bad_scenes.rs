@@ -162,3 +162,29 @@ fn files_that_are_no_scenes() {
         &["--spacing", "set spacing in it"],
     );
 }
+
+#[test]
+fn solids_that_overlap_are_named() {
+    let scene = |role: &str, x: f64| {
+        format!(
+            "spacing = 0.1\n[domain]\nmin = [-2.0, -2.0]\nmax = [3.0, 2.0]\n[[body]]\nname = \"disc\"\nshape = {{ circle = {{ center = [0.0, 0.0], radius = 1.0 }} }}\n[[body]]\nname = \"plate\"\nrole = \"{role}\"\nshape = {{ box = {{ min = [{x}, -1.0], max = [{}, 1.0] }} }}\n",
+            x + 0.9
+        )
+    };
+    let desk = Desk::new()
+        .with("overlap.toml", scene("solid", 0.8))
+        .with("touch.toml", scene("solid", 1.0))
+        .with("void.toml", scene("void", 0.8));
+    desk.refuse(
+        &["pack", "overlap.toml", "--dry-run"],
+        &[
+            "overlap.toml",
+            "\"disc\" and \"plate\" overlap",
+            "is in both",
+            "precedence = 1",
+            "move one",
+        ],
+    );
+    desk.succeed(&["pack", "touch.toml", "--dry-run"]);
+    desk.succeed(&["pack", "void.toml", "--dry-run"]);
+}

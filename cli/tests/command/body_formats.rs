@@ -2,11 +2,12 @@
 
 use crate::{Desk, cube, stl, text_stl};
 
-/// The unit cube as an OBJ file.
-fn obj_cube() -> String {
+/// An OBJ file; numbers to the bit.
+pub(crate) fn obj(triangles: &[[[f32; 3]; 3]]) -> String {
     let mut text = "o cube\n".to_owned();
-    for triangle in cube() {
-        for [x, y, z] in triangle {
+    for triangle in triangles {
+        for p in triangle {
+            let [x, y, z] = p.map(f64::from);
             text += &format!("v {x} {y} {z}\n");
         }
         text += "f -3 -2 -1\n";
@@ -14,9 +15,8 @@ fn obj_cube() -> String {
     text
 }
 
-/// The unit cube as a binary PLY file, the highest byte first.
-fn ply_cube() -> Vec<u8> {
-    let triangles = cube();
+/// A binary PLY file, the highest byte first.
+pub(crate) fn ply(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
     let mut bytes = format!(
         "ply\nformat binary_big_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\
          element face {}\nproperty list uchar int vertex_index\nend_header\n",
@@ -43,8 +43,8 @@ fn bodies_of_every_format() {
     let desk = Desk::new()
         .with("cube.stl", stl(&cube()))
         .with("text.stl", text_stl(&cube()))
-        .with("cube.obj", obj_cube())
-        .with("cube.ply", ply_cube())
+        .with("cube.obj", obj(&cube()))
+        .with("cube.ply", ply(&cube()))
         .with("square.csv", "x,y\n0,0\n1,0\n1,1\n0,1\n")
         .with("square.dat", "a square\n3. 3.\n\n0 0\n0 1\n1 1\n\n0 0\n1 0\n1 1\n")
         .with(
@@ -52,7 +52,7 @@ fn bodies_of_every_format() {
             "<svg viewBox='0 0 5 5'><g transform='translate(1 1)'><rect width='1' height='1'/></g></svg>",
         )
         // Content counts, not the name.
-        .with("really.csv", ply_cube());
+        .with("really.csv", ply(&cube()));
     for (body, read, measure) in [
         (
             "cube.stl",

@@ -4,10 +4,14 @@ mod bad_bodies;
 mod bad_outputs;
 mod bad_scenes;
 mod body_formats;
+mod checking;
+mod dirty_formats;
+mod dirty_meshes;
 mod good_runs;
 mod interrupts;
 mod measuring;
 mod particle_files;
+mod precedence;
 
 use std::fs;
 use std::path::Path;

@@ -6,10 +6,10 @@ mod normals;
 mod strew;
 mod surface;
 #[cfg(test)]
-mod tests;
-mod topology;
-mod triangle;
-mod weld;
+pub(crate) mod tests;
+pub(crate) mod topology;
+pub(crate) mod triangle;
+pub(crate) mod weld;
 
 use std::sync::OnceLock;
 

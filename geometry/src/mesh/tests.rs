@@ -10,7 +10,7 @@ use crate::surface::{Feature, Surface};
 use crate::{Ball, Cuboid};
 
 /// A sphere of radius 1: an icosahedron with every triangle cut in four, `levels` times.
-pub(super) fn icosphere(levels: usize) -> Mesh {
+pub(crate) fn icosphere(levels: usize) -> Mesh {
     let g = 0.5 * (1.0 + 5.0_f64.sqrt());
     let mut vertices: Vec<[f64; 3]> = Vec::new();
     for (a, b) in [(1.0, g), (1.0, -g), (-1.0, g), (-1.0, -g)] {

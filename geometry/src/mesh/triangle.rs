@@ -4,7 +4,7 @@ use sphpack_neighbors::point;
 
 /// The part of a triangle a point is nearest to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(crate) enum Part {
     Face,
     /// Side `k`, from corner `k` to the next.
     Side(usize),
@@ -16,7 +16,7 @@ pub(super) enum Part {
 /// The plane is divided into the regions of the corners, sides and face by scalar products with the sides
 /// (Ericson, Real-Time Collision Detection, section 5.1.5).
 #[inline]
-pub(super) fn nearest(t: &[[f64; 3]; 3], p: [f64; 3]) -> ([f64; 3], Part) {
+pub(crate) fn nearest(t: &[[f64; 3]; 3], p: [f64; 3]) -> ([f64; 3], Part) {
     let [a, b, c] = *t;
     let (ab, ac) = (point::sub(b, a), point::sub(c, a));
     let ap = point::sub(p, a);
@@ -57,22 +57,22 @@ pub(super) fn nearest(t: &[[f64; 3]; 3], p: [f64; 3]) -> ([f64; 3], Part) {
 
 /// The point with these weights.
 #[inline(always)]
-pub(super) fn place(t: &[[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
+pub(crate) fn place(t: &[[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| weights[0] * t[0][k] + weights[1] * t[1][k] + weights[2] * t[2][k])
 }
 
 /// Twice the area along the normal.
-pub(super) fn area_vector(t: &[[f64; 3]; 3]) -> [f64; 3] {
+pub(crate) fn area_vector(t: &[[f64; 3]; 3]) -> [f64; 3] {
     point::cross(point::sub(t[1], t[0]), point::sub(t[2], t[0]))
 }
 
 /// Area.
-pub(super) fn area(t: &[[f64; 3]; 3]) -> f64 {
+pub(crate) fn area(t: &[[f64; 3]; 3]) -> f64 {
     0.5 * point::norm(area_vector(t))
 }
 
 /// Interior angle at corner `k`, radians.
-pub(super) fn angle(t: &[[f64; 3]; 3], k: usize) -> f64 {
+pub(crate) fn angle(t: &[[f64; 3]; 3], k: usize) -> f64 {
     let (u, v) = (
         point::sub(t[(k + 1) % 3], t[k]),
         point::sub(t[(k + 2) % 3], t[k]),
@@ -82,7 +82,7 @@ pub(super) fn angle(t: &[[f64; 3]; 3], k: usize) -> f64 {
 
 /// How a ray meets a triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Meeting {
+pub(crate) enum Meeting {
     Miss,
     Hit,
     /// Too near a side, or too nearly along the plane, to tell.
@@ -94,7 +94,7 @@ const UNCLEAR: f64 = 1e-9;
 
 /// Whether the ray `origin + t direction`, t ≥ 0, meets the triangle (Möller and Trumbore's solution of the 3×3
 /// system).
-pub(super) fn meet(t: &[[f64; 3]; 3], origin: [f64; 3], direction: [f64; 3]) -> Meeting {
+pub(crate) fn meet(t: &[[f64; 3]; 3], origin: [f64; 3], direction: [f64; 3]) -> Meeting {
     let (ab, ac) = (point::sub(t[1], t[0]), point::sub(t[2], t[0]));
     let across = point::cross(direction, ac);
     let determinant = point::dot(ab, across);

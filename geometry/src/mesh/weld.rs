@@ -6,13 +6,13 @@ use sphpack_neighbors::point;
 
 /// Vertices nearer than this, in parts of the mesh's size, may be one where the exact weld leaves holes: some ten
 /// times the resolution of the 32-bit numbers in STL files.
-pub(super) const TOLERANCE: f64 = 1e-6;
+pub(crate) const TOLERANCE: f64 = 1e-6;
 
 /// Shared vertices, and triangles by their numbers.
 type Indexed = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
 /// Vertices in the order of their first use, equal ones (−0 = 0) shared.
-pub(super) fn exact(corners: &[[[f64; 3]; 3]]) -> Indexed {
+pub(crate) fn exact(corners: &[[[f64; 3]; 3]]) -> Indexed {
     let mut numbers: HashMap<[u64; 3], u32> = HashMap::with_capacity(corners.len());
     let mut vertices = Vec::new();
     let triangles = corners
@@ -31,7 +31,7 @@ pub(super) fn exact(corners: &[[[f64; 3]; 3]]) -> Indexed {
 }
 
 /// Every vertex takes the place of the first one within `tolerance`, if there is one. O(n).
-pub(super) fn within(vertices: &[[f64; 3]], triangles: &[[u32; 3]], tolerance: f64) -> Indexed {
+pub(crate) fn within(vertices: &[[f64; 3]], triangles: &[[u32; 3]], tolerance: f64) -> Indexed {
     let cell = |p: [f64; 3]| p.map(|x| (x / tolerance).floor() as i64);
     let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::with_capacity(vertices.len());
     let mut kept: Vec<[f64; 3]> = Vec::new();

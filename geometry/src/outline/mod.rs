@@ -2,6 +2,7 @@
 
 mod check;
 mod inside;
+mod minus;
 mod offset;
 mod shapes;
 mod surface;

@@ -3,7 +3,7 @@
 //! Every side sweeps a strip as it moves. What is left of the body inside (or what it grows to outside) is the body
 //! minus (plus) all strips and the wedges between neighbours that move apart. The raw offset below winds around each
 //! place as often as body and strips together do, so the result is where its winding number is positive; an overlay
-//! engine finds that. Only this file knows the engine.
+//! engine finds that. Only this file and `minus` know the engine.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;
@@ -17,7 +17,7 @@ use crate::segment::{cross, signed_area};
 pub const MITRE_LIMIT: f64 = 4.0;
 
 /// Points nearer than this, in parts of the outline's size, are one: the engine's crossings of nearly parallel sides.
-const MERGE: f64 = 1e-11;
+pub(super) const MERGE: f64 = 1e-11;
 
 /// Pieces with less area than this × offset² are dropped: no particle fits.
 const CRUMB: f64 = 1e-6;
@@ -137,7 +137,7 @@ fn positive(loops: &Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// Without points that repeat their neighbours or lie on the line between them.
-fn tidy(points: Vec<[f64; 2]>, merge: f64) -> Vec<[f64; 2]> {
+pub(super) fn tidy(points: Vec<[f64; 2]>, merge: f64) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
     for p in points {
         if kept

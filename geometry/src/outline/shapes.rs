@@ -51,6 +51,28 @@ impl Outline {
         Self::polygon(&points)
     }
 
+    /// The ellipse with `semi_axes` along the axes about `center`, scene units. Sampled within
+    /// [`SAGITTA_OVER_SIZE`](crate::SAGITTA_OVER_SIZE) of its size; [`Ellipsoid`](crate::Ellipsoid) and
+    /// [`Ball`](crate::Ball) are exact, but cannot be cut.
+    ///
+    /// # Errors
+    /// [`GeometryError::BadParameter`] unless the semi-axes are positive and finite and the centre is finite.
+    pub fn ellipse(center: [f64; 2], semi_axes: [f64; 2]) -> Result<Self, GeometryError> {
+        GeometryError::check_finite("ellipse", "center", center)?;
+        for length in semi_axes {
+            GeometryError::check_positive("ellipse", "semi_axes", length)?;
+        }
+        let at = |angle: f64| {
+            [
+                center[0] + semi_axes[0] * angle.cos(),
+                center[1] + semi_axes[1] * angle.sin(),
+            ]
+        };
+        let mut points = nodes(at, 0.0, TAU, 2.0 * semi_axes[0].max(semi_axes[1]));
+        points.pop();
+        Self::polygon(&points)
+    }
+
     /// The NACA four-digit airfoil `digits` ("0015", "2412") with its leading edge at the origin and its chord of
     /// length `chord` (scene units) along +x; the trailing edge is closed (last coefficient −0.1036) and its only
     /// corner. Sampled within [`SAGITTA_OVER_SIZE`](crate::SAGITTA_OVER_SIZE) of the chord.

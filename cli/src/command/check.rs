@@ -1,0 +1,280 @@
+//! `sphpack check`.
+
+use std::fmt::Write as _;
+
+use sphpack_geometry::{Mesh, Soup};
+
+use super::arguments::CheckArguments;
+use super::{outputs, say};
+use crate::Error;
+use crate::error::{BAD_INPUT, DONE};
+use crate::examined::{Examine, Examined, MeshFindings};
+use crate::files::WholeFiles;
+use crate::picture::grouped;
+
+/// Holes and shells that are named one by one, at most.
+const MOST_LISTED: usize = 8;
+
+pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
+    for (name, value) in [
+        ("--spacing", arguments.spacing),
+        ("--fill-holes", arguments.fill_holes),
+    ] {
+        if let Some(value) = value
+            && !(value > 0.0 && value.is_finite())
+        {
+            return Err(Error::Usage(format!(
+                "{name} is {value}; it must be a positive, finite number"
+            )));
+        }
+    }
+    if arguments.fill_holes.is_some() && arguments.repair.is_none() {
+        return Err(Error::Usage(
+            "--fill-holes goes with --repair OUT.stl: the mended mesh must go somewhere".into(),
+        ));
+    }
+    for (path, wanted, words) in [
+        (&arguments.repair, "stl", "the mended mesh is an STL file"),
+        (&arguments.report, "json", "the report is JSON"),
+    ] {
+        if let Some(path) = path {
+            let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+            if ending.as_deref() != Some(wanted) {
+                return Err(Error::input(path, format!("{words}; name it .{wanted}")));
+            }
+        }
+    }
+    let paths: Vec<_> = arguments.repair.iter().chain(&arguments.report).collect();
+    outputs::check(
+        &paths,
+        std::slice::from_ref(&arguments.body),
+        arguments.force,
+    )?;
+    let what = Examine {
+        spacing: arguments.spacing,
+        fill_holes: arguments.fill_holes,
+    };
+    let (examined, mesh) = Examined::of(&arguments.body, &what)?;
+    let mut files = WholeFiles::new(arguments.force);
+    let mut written = Vec::new();
+    if let Some(path) = &arguments.repair {
+        if examined.dimension == 2 {
+            return Err(Error::Usage(
+                "--repair mends meshes; outlines are right or refused with the place".into(),
+            ));
+        }
+        if let Some(mesh) = &mesh {
+            let mended = as_in_a_file(mesh)
+                .map_err(|e| Error::input(path, format!("the mended mesh does not survive the 32-bit numbers of an STL file ({e}); nothing was written")))?;
+            files.write(path, |to| mended.write_stl(to))?;
+            written.push(path.display().to_string());
+        }
+    }
+    let json = serde_json::to_string_pretty(&examined)
+        .map_err(|e| Error::System(format!("the findings cannot be written as JSON: {e}")))?
+        + "\n";
+    if let Some(path) = &arguments.report {
+        files.write(path, |to| to.write_all(json.as_bytes()))?;
+        written.push(path.display().to_string());
+    }
+    files.finish()?;
+    if arguments.json {
+        say(&json);
+    } else {
+        say(&words(&examined, &written, arguments));
+    }
+    Ok(if examined.can_be_packed {
+        DONE
+    } else {
+        BAD_INPUT
+    })
+}
+
+/// The mesh as it is read again from an STL file, if it still is a body then.
+fn as_in_a_file(mesh: &Mesh) -> Result<Soup, sphpack_geometry::GeometryError> {
+    let place = |v: u32| mesh.vertices()[v as usize].map(|x| f64::from(x as f32));
+    let corners: Vec<[[f64; 3]; 3]> = mesh.triangles().iter().map(|t| t.map(place)).collect();
+    let soup = Soup::from_loose(&corners)?;
+    soup.body()?;
+    Ok(soup)
+}
+
+fn line(text: &mut String, what: &str, words: &str) {
+    let _ = writeln!(text, "  {what:10} {words}");
+}
+
+/// Four digits.
+fn short(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return x.to_string();
+    }
+    let digits = (3.0 - x.abs().log10().floor()).clamp(0.0, 300.0) as usize;
+    if digits > 8 {
+        return format!("{x:.3e}");
+    }
+    let fixed = format!("{x:.digits$}");
+    if fixed.contains('.') {
+        fixed.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        fixed
+    }
+}
+
+fn list(values: &[f64], between: &str) -> String {
+    let words: Vec<String> = values.iter().map(|&x| short(x)).collect();
+    words.join(between)
+}
+
+fn place(values: &[f64]) -> String {
+    format!("({})", list(values, ", "))
+}
+
+fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) -> String {
+    let mut text = String::new();
+    let size: Vec<f64> = (examined.max.iter())
+        .zip(&examined.min)
+        .map(|(b, a)| b - a)
+        .collect();
+    line(&mut text, "read", examined.format.description());
+    line(
+        &mut text,
+        "size",
+        &format!(
+            "{} from {} to {}",
+            list(&size, " × "),
+            place(&examined.min),
+            place(&examined.max)
+        ),
+    );
+    if let Some(mesh) = &examined.mesh {
+        mesh_words(&mut text, mesh);
+    }
+    for (number, repair) in examined.repairs.iter().enumerate() {
+        line(&mut text, if number == 0 { "mended" } else { "" }, repair);
+    }
+    let (measure, volume) = if examined.dimension == 2 {
+        ("perimeter", "area")
+    } else {
+        ("area", "volume")
+    };
+    if examined.can_be_packed {
+        line(
+            &mut text,
+            "body",
+            &format!(
+                "{measure} {}, {volume} {}",
+                short(examined.measure),
+                short(examined.volume)
+            ),
+        );
+    }
+    if let Some(thin) = &examined.thin {
+        let words = if thin.part_of_surface > 0.0 {
+            format!(
+                "{} % of the surface bounds parts thinner than ∆s = {}, the thinnest {} near {}",
+                short(100.0 * thin.part_of_surface),
+                short(thin.spacing),
+                short(thin.thinnest),
+                place(&thin.place)
+            )
+        } else {
+            format!("nothing is thinner than ∆s = {}", short(thin.spacing))
+        };
+        line(&mut text, "thin", &words);
+    }
+    if !written.is_empty() {
+        line(&mut text, "wrote", &written.join(", "));
+    }
+    let verdict = match &examined.reason {
+        Some(reason) => {
+            let mut verdict = format!("cannot be packed: {reason}");
+            let holes = examined.mesh.as_ref().and_then(|mesh| mesh.holes.first());
+            if let (Some(hole), None) = (holes, arguments.fill_holes) {
+                let _ = write!(
+                    verdict,
+                    "; or `--repair OUT.stl --fill-holes {}` closes them as flat as can be",
+                    short(1.01 * hole.size)
+                );
+            }
+            verdict
+        }
+        None if examined.repairs.is_empty() => "can be packed as it is".into(),
+        None if arguments.repair.is_some() => "the mended body can be packed".into(),
+        None => "can be packed: `sphpack pack` mends this by itself, and says so".into(),
+    };
+    line(&mut text, "verdict", &verdict);
+    text
+}
+
+fn mesh_words(text: &mut String, mesh: &MeshFindings) {
+    line(
+        text,
+        "mesh",
+        &format!(
+            "{} triangles, {} vertices",
+            grouped(mesh.triangles),
+            grouped(mesh.vertices)
+        ),
+    );
+    for (number, shell) in mesh.shells.iter().enumerate().take(MOST_LISTED) {
+        let inside = match shell.inside {
+            Some(outer) => format!(", inside shell {}", outer + 1),
+            None => String::new(),
+        };
+        let facing = if shell.is_inverted {
+            ", inside out"
+        } else {
+            ""
+        };
+        line(
+            text,
+            if number == 0 { "shells" } else { "" },
+            &format!(
+                "{}: {}{facing}{inside}; {} triangles, area {}, volume {}, from {} to {}",
+                number + 1,
+                shell.role,
+                grouped(shell.triangles),
+                short(shell.area),
+                short(shell.volume),
+                place(&shell.min),
+                place(&shell.max)
+            ),
+        );
+    }
+    if mesh.shells.len() > MOST_LISTED {
+        line(
+            text,
+            "",
+            &format!("and {} more", grouped(mesh.shells.len() - MOST_LISTED)),
+        );
+    }
+    for (number, defect) in mesh.defects.iter().enumerate() {
+        line(
+            text,
+            if number == 0 { "defects" } else { "" },
+            &defect.words,
+        );
+    }
+    for (number, hole) in mesh.holes.iter().enumerate().take(MOST_LISTED) {
+        line(
+            text,
+            if number == 0 { "holes" } else { "" },
+            &format!(
+                "{} edges, {} across, near {}",
+                hole.edges,
+                short(hole.size),
+                place(&hole.place)
+            ),
+        );
+    }
+    if mesh.holes.len() > MOST_LISTED {
+        line(
+            text,
+            "",
+            &format!(
+                "and {} smaller ones",
+                grouped(mesh.holes.len() - MOST_LISTED)
+            ),
+        );
+    }
+}

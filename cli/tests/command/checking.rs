@@ -1,0 +1,135 @@
+//! `sphpack check`.
+
+use serde_json::Value;
+
+use crate::{Desk, cube, stl};
+
+/// A cube without its last side.
+fn open() -> Vec<u8> {
+    stl(&cube()[..10])
+}
+
+#[test]
+fn a_clean_body() {
+    let desk = Desk::new().with("cube.stl", stl(&cube()));
+    let words = desk.succeed(&["check", "cube.stl"]).stdout;
+    for part in [
+        "1 × 1 × 1",
+        "12 triangles, 8 vertices",
+        "volume 1",
+        "as it is",
+    ] {
+        assert!(words.contains(part), "{words}");
+    }
+    assert!(!words.contains("defects"), "{words}");
+    let json = desk.succeed(&["check", "cube.stl", "--json", "--spacing", "2"]);
+    let found: Value = serde_json::from_str(&json.stdout).expect("JSON");
+    assert_eq!(found["can_be_packed"], true);
+    assert_eq!(found["mesh"]["shells"][0]["role"], "body");
+    assert_eq!(found["thin"]["part_of_surface"], 1.0);
+    assert_eq!(found["volume"], 1.0);
+    assert_eq!(desk.files(), ["cube.stl"]);
+}
+
+#[test]
+fn every_defect_has_a_count_and_a_place() {
+    let mut triangles = cube();
+    triangles[4].swap(0, 1);
+    triangles.push(triangles[0]);
+    triangles.push([triangles[0][0], triangles[0][0], triangles[0][1]]);
+    let desk = Desk::new().with("body.stl", stl(&triangles));
+    let ending = desk.succeed(&["check", "body.stl", "--report", "found.json"]);
+    for part in [
+        "1 triangles that are there more than once",
+        "1 triangles that use a vertex twice",
+        "face opposite ways, the first near (",
+        "mended",
+        "1 of 12 triangles faced the other way",
+        "pack` mends this by itself",
+    ] {
+        assert!(ending.stdout.contains(part), "{}", ending.stdout);
+    }
+    let found: Value = serde_json::from_slice(&desk.read("found.json")).expect("JSON");
+    assert_eq!(found["repairs"].as_array().map(Vec::len), Some(3));
+    assert_eq!(found["mesh"]["defects"][0]["kind"], "non-manifold");
+    assert_eq!(found["mesh"]["defects"][0]["count"], 3);
+}
+
+#[test]
+fn large_holes_are_closed_when_asked() {
+    let desk = Desk::new().with("open.stl", open());
+    let ending = desk.run(&["check", "open.stl"]);
+    assert_eq!(ending.status, Some(2), "{ending:?}");
+    for part in [
+        "4 edges with one triangle",
+        "1.414 across",
+        "--fill-holes 1.428",
+    ] {
+        assert!(ending.stdout.contains(part), "{}", ending.stdout);
+    }
+    // Nothing is written unless it is a body then.
+    let ending = desk.run(&["check", "open.stl", "--repair", "mended.stl"]);
+    assert_eq!(ending.status, Some(2));
+    assert_eq!(desk.files(), ["open.stl"]);
+    let all = [
+        "check",
+        "open.stl",
+        "--repair",
+        "mended.stl",
+        "--fill-holes",
+        "1.5",
+    ];
+    let words = desk.succeed(&all).stdout;
+    assert!(
+        words.contains("1 hole was closed with 2 triangles"),
+        "{words}"
+    );
+    let words = desk.succeed(&["check", "mended.stl"]).stdout;
+    assert!(
+        words.contains("as it is") && words.contains("volume 1"),
+        "{words}"
+    );
+    desk.refuse(&all, &["mended.stl", "exists", "--force"]);
+    let mut forced = all.to_vec();
+    forced.push("--force");
+    desk.succeed(&forced);
+    desk.succeed(&["pack", "mended.stl", "--spacing", "0.2", "--quiet"]);
+}
+
+#[test]
+fn outlines() {
+    let desk = Desk::new()
+        .with("square.csv", "0,0\n1,0\n1,1\n0,1\n")
+        .with("bow-tie.csv", "0,0\n2,2\n2,0\n0,1\n");
+    let words = desk
+        .succeed(&["check", "square.csv", "--spacing", "0.1"])
+        .stdout;
+    for part in ["perimeter 4, area 1", "nothing is thinner", "as it is"] {
+        assert!(words.contains(part), "{words}");
+    }
+    desk.refuse(
+        &["check", "bow-tie.csv"],
+        &["meets itself", "move or remove"],
+    );
+    desk.refuse(
+        &["check", "square.csv", "--repair", "out.stl"],
+        &["outlines"],
+    );
+}
+
+#[test]
+fn what_makes_no_sense() {
+    let desk = Desk::new().with("cube.stl", stl(&cube()));
+    for (arguments, part) in [
+        (&["--spacing", "0"][..], "--spacing is 0"),
+        (&["--fill-holes", "1"], "--repair"),
+        (&["--repair", "out.obj"], "name it .stl"),
+        (&["--repair", "cube.stl", "--force"], "input"),
+        (&["--report", "out.txt"], "name it .json"),
+    ] {
+        let mut all = vec!["check", "cube.stl"];
+        all.extend(arguments);
+        desk.refuse(&all, &[part]);
+    }
+    desk.refuse(&["check", "nothing.stl"], &["no such file"]);
+}
