@@ -41,7 +41,7 @@ pub struct CloudQuality {
 }
 
 impl Cloud {
-    /// Reads particles (.csv, .vtu). Where the file has no volumes, each is `spacing`^dimension.
+    /// Reads particles (.csv, .npz, .ply, .vtu, .vtp). Where the file has no volumes, each is `spacing`^dimension.
     ///
     /// # Errors
     /// [`Error::Input`] where the file cannot be used.

@@ -1,7 +1,7 @@
 //! From a scene's method to the one that packs.
 
 use sphpack_packing::{
-    Balanced, Band, Clipped, Coupled, Hybrid, Observer, Packed, Ppa, Problem, Standard,
+    Agitated, Balanced, Band, Clipped, Coupled, Hybrid, Observer, Packed, Ppa, Problem, Standard,
 };
 
 use crate::Error;
@@ -40,6 +40,11 @@ pub(crate) fn pack<const D: usize>(
             velocity_tolerance: packing.velocity_tolerance,
             max_iterations: packing.max_iterations,
             ..Coupled::default()
+        }
+        .pack(problem, observer),
+        Method::Agitated => Agitated {
+            max_iterations: packing.max_iterations,
+            ..Agitated::default()
         }
         .pack(problem, observer),
         Method::Ppa => Ppa {

@@ -1,9 +1,9 @@
 //! The agitated method of paper 000 §2: particles on circles keep the others moving until the surface has its share.
 
+use std::f64::consts::TAU;
 use std::time::Instant;
 
 use rayon::prelude::*;
-use sphpack_geometry::Closest;
 use sphpack_neighbors::{KdTree, point};
 
 use crate::course::Course;
@@ -37,7 +37,7 @@ pub struct Agitated {
     pub max_iterations: usize,
     /// The damping ζ in √p_b/∆s (eq. 19).
     pub damping: f64,
-    /// k in p_b ∆s^0: 1/(2000 (d−1)) of eq. 18, given here for d = 2.
+    /// k in p_b, times d − 1 (eq. 18).
     pub repulsion: f64,
     /// Steps of a revolution.
     pub revolution: usize,
@@ -73,5 +73,280 @@ const AWAY: f64 = 2.0;
 /// c of eq. 4 in ∆s: 1.5 α with α = 1, and 1.2 between boundary particles.
 const REACH: [f64; 2] = [1.5, 1.8];
 
+/// Nearer than this, in ∆s, the repulsion no longer grows.
+const CORE: f64 = 0.5;
+
+/// The skin of the repulsion's neighbour lists, in ∆s.
+const SKIN: f64 = 0.3;
+
 /// Steps between two lines of the history.
 const NOTE_EVERY: usize = 50;
+
+impl Agitated {
+    /// Packs the problem.
+    ///
+    /// # Errors
+    /// Those of [`Problem::check`], and [`PackingError::Surface`].
+    pub fn pack<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        observer: &mut dyn Observer,
+    ) -> Result<Packed<D>, PackingError> {
+        let mut course = Course::new(observer, self.density_tolerance, self.max_iterations);
+        problem.check()?;
+        course.enter(Phase::Geometry);
+        let geometry = Instant::now();
+        let surfaces = particle_surfaces(problem)?;
+        course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
+        course.seconds.geometry = geometry.elapsed().as_secs_f64();
+        course.enter(Phase::Seeding);
+        let seeding = Instant::now();
+        let Seeds {
+            mut particles,
+            frozen_lattice,
+        } = seed(problem)?;
+        let mut agitators = self.agitators(problem, &surfaces, &mut particles);
+        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+
+        // All in units of ∆s/√p_b (eqs. 16, 18, 19).
+        let size = problem.spacing;
+        let period = self.revolution as f64 * LARGEST_STEP * size;
+        let round = if D == 2 { period } else { 2.0 * period };
+        let slow = 0.5 * size * TAU / period;
+        let convert_every = (0.1 / (slow * LARGEST_STEP)).ceil().max(1.0) as usize;
+        let zeta = self.damping / size;
+        let strength = self.repulsion / (D as f64 - 1.0);
+        let mut forces = Forces::of(problem, Repulsion::none());
+        let mut near = Near::default();
+        let mut acceleration = Vec::new();
+        let mut motion = Motion::at_rest(particles.len());
+        let mut on_surface = OnSurface::default();
+        let (mut time, mut changed_at, mut looked_at) = (0.0, 0.0, 0.0);
+        let mut error_then = f64::INFINITY;
+        let mut stop_reason = StopReason::IterationLimit;
+        course.enter(Phase::Capture);
+        for iteration in 0..self.max_iterations {
+            if course.interrupted {
+                break;
+            }
+            if iteration % convert_every == 0 && !agitators.is_empty() {
+                let is_slow = |i: usize| motion.speed(i) < slow;
+                if self.convert(problem, &mut particles, &surfaces, &is_slow) {
+                    changed_at = time;
+                }
+                on_surface.refresh(&particles);
+                on_surface.project(&mut particles, &surfaces, problem.support());
+            }
+            // Eqs. 2, 5, 6 and 9
+            forces.evaluate(&particles);
+            near.update(&particles, REACH[1] * size, SKIN * size);
+            near.accelerations(&particles, strength, size, &mut acceleration);
+            let farthest = FARTHEST * size;
+            let dt = (LARGEST_STEP * size).min(farthest / motion.fastest.max(farthest / size));
+            motion.advance(&mut particles, &on_surface, dt, zeta, |i| {
+                point::sub(acceleration[i], forces.gradient(i))
+            });
+            on_surface.project(&mut particles, &surfaces, problem.support());
+            time += dt;
+            for &(i, site) in &agitators {
+                particles.position[i] = orbit(site, 0.5 * size, TAU * time / period);
+            }
+            if !agitators.is_empty() && time - changed_at >= round {
+                for (i, _) in agitators.drain(..) {
+                    particles.kind[i] = Kind::Free;
+                }
+                (looked_at, error_then) = (time, f64::INFINITY);
+                course.progress.phase = Phase::Settling;
+            }
+            let is_last = iteration + 1 == self.max_iterations;
+            if (iteration + 1) % NOTE_EVERY == 0 || is_last {
+                let error = largest(particles.len(), |i| match particles.kind[i] {
+                    Kind::Frozen => 0.0,
+                    _ => (forces.gamma(i) - 1.0).abs(),
+                });
+                course.progress.evaluation = iteration + 1;
+                course.progress.on_surface = on_surface.index.len();
+                course.note(&forces, &particles);
+                if agitators.is_empty() && time - looked_at >= period {
+                    // Eq. 17
+                    course.progress.criterion = (error_then - error).abs();
+                    if course.progress.criterion < self.density_tolerance {
+                        stop_reason = StopReason::Converged;
+                        break;
+                    }
+                    (looked_at, error_then) = (time, error);
+                }
+                course.tell();
+            }
+        }
+        for (i, _) in agitators {
+            particles.kind[i] = Kind::Free;
+        }
+        Ok(course.end(
+            problem,
+            particles,
+            frozen_lattice,
+            surfaces,
+            &forces,
+            stop_reason,
+        ))
+    }
+
+    /// The free particles nearest to the points of a coarse grid, far enough from every surface; held as fixed while
+    /// they run. With the sites that they run about.
+    fn agitators<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        surfaces: &[ParticleSurface<D>],
+        particles: &mut Particles<D>,
+    ) -> Vec<(usize, [f64; D])> {
+        let Ok(tree) = KdTree::new(&particles.position) else {
+            return Vec::new();
+        };
+        let step = self.grid_over_spacing * problem.spacing;
+        let bounds = problem.domain.bounds;
+        let cells: [usize; D] =
+            std::array::from_fn(|k| ((bounds.size()[k] / step).floor() as usize).max(1));
+        let mut chosen = Vec::new();
+        for number in 0..cells.iter().product::<usize>() {
+            let mut rest = number;
+            let middle: [f64; D] = std::array::from_fn(|k| {
+                let cell = rest % cells[k];
+                rest /= cells[k];
+                bounds.min[k] + (cell as f64 + 0.5) * bounds.size()[k] / cells[k] as f64
+            });
+            let Some(found) = tree.nearest(middle) else {
+                continue;
+            };
+            let (i, away) = (found.index, AWAY * problem.spacing);
+            let p = particles.position[i];
+            let is_near = |s: &ParticleSurface<D>| s.surface.closest_within(p, away).is_some();
+            if particles.kind[i] == Kind::Free && !surfaces.iter().any(is_near) {
+                particles.kind[i] = Kind::Fixed;
+                chosen.push((i, p));
+            }
+        }
+        chosen
+    }
+
+    /// §2.5; whether the number of boundary particles changed.
+    fn convert<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        particles: &mut Particles<D>,
+        surfaces: &[ParticleSurface<D>],
+        is_slow: &(dyn Fn(usize) -> bool + Sync),
+    ) -> bool {
+        let before = particles.count(Kind::Boundary);
+        let [to_boundary, to_free] = self.conversion_over_spacing.map(|d| d * problem.spacing);
+        let kinds: Vec<(Kind, Option<u16>)> = (0..particles.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|i| {
+                let (kind, body) = (particles.kind[i], particles.body[i]);
+                let p = particles.position[i];
+                let within = |s: &ParticleSurface<D>, reach| s.surface.closest_within(p, reach);
+                match kind {
+                    Kind::Free if is_slow(i) => (surfaces.iter().zip(0_u16..))
+                        .find(|(s, _)| within(s, to_boundary).is_some())
+                        .map_or((kind, body), |(_, b)| (Kind::Boundary, Some(b))),
+                    Kind::Boundary => {
+                        let own = &surfaces[usize::from(body.unwrap_or(0))];
+                        match within(own, to_free) {
+                            Some(_) => (kind, body),
+                            None => (Kind::Free, None),
+                        }
+                    }
+                    _ => (kind, body),
+                }
+            })
+            .collect();
+        for (i, (kind, body)) in kinds.into_iter().enumerate() {
+            (particles.kind[i], particles.body[i]) = (kind, body);
+        }
+        particles.count(Kind::Boundary) != before
+    }
+}
+
+/// Eqs. 12 and 13, begun at the site.
+fn orbit<const D: usize>(site: [f64; D], radius: f64, angle: f64) -> [f64; D] {
+    let at = |angle: f64| -> [f64; 3] {
+        if D == 2 {
+            [angle.cos(), angle.sin(), 0.0]
+        } else {
+            let (half, whole) = ((0.5 * angle).sin_cos(), angle.sin_cos());
+            [half.1 * whole.0, half.0 * whole.0, whole.1]
+        }
+    };
+    let (now, first) = (at(angle), at(0.0));
+    std::array::from_fn(|k| site[k] + radius * (now[k] - first[k]))
+}
+
+/// Who is within reach of the repulsion of eq. 4.
+#[derive(Default)]
+struct Near<const D: usize> {
+    list: Vec<Vec<u32>>,
+    seen: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Near<D> {
+    /// Finds the neighbours anew where a particle has moved half the skin.
+    fn update(&mut self, particles: &Particles<D>, reach: f64, skin: f64) {
+        let positions = &particles.position;
+        if self.seen.len() == positions.len() {
+            let moved = largest(positions.len(), |i| {
+                point::distance(positions[i], self.seen[i])
+            });
+            if moved <= 0.5 * skin {
+                return;
+            }
+        }
+        self.seen.clone_from(positions);
+        let Ok(tree) = KdTree::new(positions) else {
+            return;
+        };
+        self.list = (0..positions.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|i| {
+                if particles.kind[i] == Kind::Frozen {
+                    return Vec::new();
+                }
+                let found = tree.within(positions[i], reach + skin);
+                let others = found.into_iter().filter(|found| found.index != i);
+                others.map(|found| found.index as u32).collect()
+            })
+            .collect();
+    }
+
+    /// Eq. 5 with eq. 4 cut at r = c.
+    fn accelerations(
+        &self,
+        particles: &Particles<D>,
+        strength: f64,
+        size: f64,
+        out: &mut Vec<[f64; D]>,
+    ) {
+        let is_boundary = |i: usize| particles.kind[i] == Kind::Boundary;
+        self.list
+            .par_iter()
+            .enumerate()
+            .with_min_len(256)
+            .map(|(i, near)| {
+                let mut sum = [0.0; D];
+                for &j in near {
+                    let j = j as usize;
+                    let apart = point::sub(particles.position[i], particles.position[j]);
+                    let r = point::norm(apart);
+                    let c = REACH[usize::from(is_boundary(i) && is_boundary(j))] * size;
+                    if r < c && r > 0.0 {
+                        let r = r.max(CORE * size);
+                        let push = 12.0 * strength * c / (r * r) * (c / r - 1.0);
+                        sum = point::add_scaled(sum, push / r, apart);
+                    }
+                }
+                sum
+            })
+            .collect_into_vec(out);
+    }
+}

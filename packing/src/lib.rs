@@ -22,6 +22,7 @@
 //! Invariants: results have the same bits for any number of threads; the loop over iterations allocates only where a
 //! neighbour list is built anew or a particle is captured; nothing here reads or writes files.
 
+mod agitated;
 pub mod balanced;
 mod clipped;
 mod coupled;
@@ -46,8 +47,11 @@ mod standard;
 mod watch;
 
 #[cfg(test)]
+mod published;
+#[cfg(test)]
 mod tests;
 
+pub use agitated::Agitated;
 pub use balanced::{Balanced, Band};
 pub use clipped::Clipped;
 pub use coupled::Coupled;

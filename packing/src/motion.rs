@@ -54,6 +54,11 @@ impl<const D: usize> Motion<D> {
         self.fastest = largest(self.velocity.len(), |i| point::norm(self.velocity[i]));
     }
 
+    /// Speed of a particle after the last step.
+    pub(crate) fn speed(&self, i: usize) -> f64 {
+        point::norm(self.velocity[i])
+    }
+
     /// Brings a particle to rest.
     pub(crate) fn stop(&mut self, i: usize) {
         self.velocity[i] = [0.0; D];

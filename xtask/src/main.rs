@@ -1,4 +1,4 @@
-//! The project's own tasks: `cargo xtask ci | tidy | fuzz | reproduce-paper | balanced | compare`.
+//! The project's own tasks: `cargo xtask ci | tidy | fuzz | reproduce-paper | balanced | compare | round-trip`.
 
 mod balanced;
 mod balanced_rows;
@@ -9,6 +9,7 @@ mod fuzz;
 #[path = "../../geometry/src/read/mangle.rs"]
 mod mangle;
 mod reproduce;
+mod round_trip;
 mod rows;
 mod tidy;
 
@@ -31,6 +32,9 @@ cargo xtask TASK
                               the balanced method against its bars; --write also writes docs/balanced.md
   compare [--quick] [--only SCENE] [--write]
                               every method on every scene; --write also writes docs/methods.md
+  round-trip [--python PROGRAM | --install]
+                              particle files of every format, read by numpy, pyvista and meshio;
+                              --install puts these into target/round-trip/venv first
 ";
 
 fn main() -> ExitCode {
@@ -45,6 +49,7 @@ fn main() -> ExitCode {
         }
         Some("balanced") => reproduce::Settings::parse(rest).and_then(|s| balanced::run(&s)),
         Some("compare") => reproduce::Settings::parse(rest).and_then(|s| compare::run(&s)),
+        Some("round-trip") => round_trip::Settings::parse(rest).and_then(|s| round_trip::run(&s)),
         Some("help" | "--help" | "-h") => {
             print!("{USAGE}");
             Ok(())

@@ -46,7 +46,7 @@ pub(super) enum Command {
 #[command(after_help = "\
 Examples:
   sphpack pack wing.toml                                       writes wing.vtu
-  sphpack pack wing.toml -o wing.csv -o wing.vtu --picture wing.svg --report wing.json
+  sphpack pack wing.toml -o wing.npz -o wing.vtu --picture wing.svg --report wing.json
   sphpack pack bunny.stl --scale 10 --spacing 0.02             a mesh: 3-D
   sphpack pack outline.csv --spacing 0.05 --margin 0.5         rows of x,y: 2-D
   sphpack pack naca0012.dat --spacing 0.01                     an airfoil (Selig or Lednicer): 2-D
@@ -59,7 +59,7 @@ Progress goes to standard error, the closing summary to standard output. Ctrl-C 
 pub(super) struct PackArguments {
     /// The scene (.toml), or a body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
     pub(super) input: PathBuf,
-    /// Write particles here (.vtu, .csv); may be repeated [default: NAME.vtu in the working directory]
+    /// Write particles here (.vtu, .vtp, .vtk, .npz, .ply, .csv); may be repeated [default: NAME.vtu in the working directory]
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
     /// Write figures here (JSON)
@@ -135,13 +135,13 @@ pub(super) struct CheckArguments {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Particles: a CSV file with a header x,y[,z] and optionally volume and kind, or a VTU file. Without volumes, spacing^dimension is taken. Rows whose kind is \"frozen\" support their neighbours and are not measured themselves; where no row is frozen, particles within a support radius of the edge of their bounding box are left out of the figures.
+Particles: a CSV file with a header x,y[,z] and optionally volume and kind, a NPZ file with arrays of these names, a PLY file with properties of these names, or a VTU or VTP file. Without volumes, spacing^dimension is taken. Rows whose kind is \"frozen\" support their neighbours and are not measured themselves; where no row is frozen, particles within a support radius of the edge of their bounding box are left out of the figures.
 
 Examples:
   sphpack quality particles.csv --spacing 0.1
   sphpack quality particles.vtu --spacing 0.1 --kernel wendland-c2 --h-over-spacing 1.3 --json")]
 pub(super) struct QualityArguments {
-    /// The particles (.csv, .vtu)
+    /// The particles (.csv, .npz, .ply, .vtu, .vtp)
     pub(super) particles: PathBuf,
     /// Particle spacing, the root of a particle's volume
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]

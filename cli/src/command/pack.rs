@@ -1,5 +1,6 @@
 //! `sphpack pack`.
 
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -251,9 +252,13 @@ impl Files {
         let mut files = WholeFiles::new(may_replace);
         let shown = |path: &Path| path.display().to_string();
         let mut written = Vec::new();
-        let rows = outcome
-            .table
-            .filtered(|i| scene.includes(outcome.table.kind[i]));
+        let table = &outcome.table;
+        let is_asked_for = |i: usize| scene.includes(table.kind[i]);
+        let rows = if (0..table.len()).all(is_asked_for) {
+            Cow::Borrowed(table)
+        } else {
+            Cow::Owned(table.filtered(is_asked_for))
+        };
         let frozen = rows
             .kind
             .iter()

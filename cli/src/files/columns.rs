@@ -6,6 +6,9 @@ use std::path::Path;
 use super::ParticleFormat;
 use crate::Error;
 
+/// Columns that must be numbers where they are there.
+pub(super) const NUMBERS: [&str; 4] = ["x", "y", "z", "volume"];
+
 /// A particle file's columns.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Columns {
@@ -25,7 +28,24 @@ impl Columns {
         let bytes = super::read_whole(path)?;
         match format {
             ParticleFormat::Csv => super::read_csv(&bytes, path),
-            ParticleFormat::Vtu => super::read_vtu(&bytes, path),
+            ParticleFormat::Vtu | ParticleFormat::Vtp => super::read_vtu(&bytes, path),
+            ParticleFormat::Npz => super::read_npz(&bytes, path),
+            ParticleFormat::Ply => super::read_ply(&bytes, path),
+            ParticleFormat::Vtk => Err(Error::input(
+                path,
+                "VTK's legacy files are written, but not read; save it as .vtu, .vtp, .npz, .ply or .csv",
+            )),
+        }
+    }
+
+    /// Makes words of a column of whole numbers; empty ones where a number has no name.
+    pub(super) fn name(&mut self, column: &str, name: impl Fn(usize) -> Option<String>) {
+        if let Some(numbers) = self.numbers.remove(column) {
+            let word = |number: &f64| {
+                let code = (*number >= 0.0).then_some(*number as usize);
+                code.and_then(&name).unwrap_or_default()
+            };
+            (self.words).insert(column.to_owned(), numbers.iter().map(word).collect());
         }
     }
 }

@@ -5,14 +5,16 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::Columns;
+use super::columns::NUMBERS;
 use crate::Error;
 use crate::table::Table;
 
 /// Writes particles. Numbers are the shortest that read back to the same bits.
 ///
 /// # Errors
-/// Those of `to`.
+/// Those of `to`; where a number is not finite, before anything is written.
 pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
+    super::sound::check(table)?;
     let space = table.dimension == 3;
     let (z, nz) = if space { (",z", ",nz") } else { ("", "") };
     writeln!(
@@ -70,9 +72,6 @@ fn quoted(field: &str) -> String {
         field.to_owned()
     }
 }
-
-/// Columns that must be numbers where they are there.
-const NUMBERS: [&str; 4] = ["x", "y", "z", "volume"];
 
 /// Reads particles: a header with x and y at least, fields separated by commas, semicolons or tabs.
 ///

@@ -14,11 +14,25 @@ pub enum ParticleFormat {
     Csv,
     /// VTK's unstructured grid; opens in ParaView and pyvista.
     Vtu,
+    /// VTK's polygonal data; opens in ParaView and pyvista.
+    Vtp,
+    /// VTK's legacy format, binary.
+    Vtk,
+    /// NumPy's archive of arrays.
+    Npz,
+    /// Points with properties, little-endian binary.
+    Ply,
 }
 
-/// Every format: its ending and a line for people.
-pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 2] =
-    [(ParticleFormat::Vtu, "vtu"), (ParticleFormat::Csv, "csv")];
+/// Every format and its ending.
+pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 6] = [
+    (ParticleFormat::Vtu, "vtu"),
+    (ParticleFormat::Csv, "csv"),
+    (ParticleFormat::Npz, "npz"),
+    (ParticleFormat::Vtp, "vtp"),
+    (ParticleFormat::Vtk, "vtk"),
+    (ParticleFormat::Ply, "ply"),
+];
 
 impl ParticleFormat {
     /// The format that a path's ending names.
@@ -48,11 +62,15 @@ impl ParticleFormat {
     /// Writes particles.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Those of `to`; where a number is not finite, before anything is written.
     pub fn write(self, table: &Table, to: &mut dyn Write) -> io::Result<()> {
         match self {
             Self::Csv => super::write_csv(table, to),
             Self::Vtu => super::write_vtu(table, to),
+            Self::Vtp => super::write_vtp(table, to),
+            Self::Vtk => super::write_vtk(table, to),
+            Self::Npz => super::write_npz(table, to),
+            Self::Ply => super::write_ply(table, to),
         }
     }
 }

@@ -1,13 +1,26 @@
 //! Reading and writing files: particles in several formats, everything whole or not at all.
 
+mod arrays;
 mod columns;
 mod csv;
 mod format;
 #[cfg(test)]
+mod legacy;
+mod npz;
+mod npz_read;
+mod number_type;
+mod ply;
+mod ply_read;
+mod sound;
+#[cfg(test)]
 mod tests;
+mod vtk;
+mod vtk_xml;
+mod vtp;
 mod vtu;
 mod vtu_read;
 mod whole;
+mod zip;
 
 use std::fs::File;
 use std::io::Read;
@@ -18,6 +31,12 @@ use crate::Error;
 pub use columns::Columns;
 pub use csv::{read_csv, write_csv};
 pub use format::{PARTICLE_FORMATS, ParticleFormat};
+pub use npz::write_npz;
+pub use npz_read::read_npz;
+pub use ply::write_ply;
+pub use ply_read::read_ply;
+pub use vtk::write_vtk;
+pub use vtp::write_vtp;
 pub use vtu::write_vtu;
 pub use vtu_read::read_vtu;
 pub(crate) use whole::{WholeFiles, forget_unfinished};

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use sphpack_packing::Kind;
 use sphpack_separation::Side;
 
+use super::legacy::read_vtk;
 use super::*;
 use crate::table::Table;
 
@@ -55,10 +56,13 @@ fn tables() -> impl Strategy<Value = Table> {
     })
 }
 
+fn axis(of: &[[f64; 3]], k: usize) -> Vec<f64> {
+    of.iter().map(|p| p[k]).collect()
+}
+
 /// The columns must be the table's, to the bit.
 fn agree(columns: &Columns, table: &Table) -> Result<(), TestCaseError> {
     let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-    let axis = |of: &[[f64; 3]], k: usize| of.iter().map(|p| p[k]).collect::<Vec<_>>();
     let mut expected = vec![
         ("id", table.id.iter().map(|&id| f64::from(id)).collect()),
         ("x", axis(&table.position, 0)),
@@ -93,17 +97,12 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn csv_round_trip(table in tables()) {
-        let mut bytes = Vec::new();
-        write_csv(&table, &mut bytes).unwrap();
-        agree(&read_csv(&bytes, Path::new("p.csv")).unwrap(), &table)?;
-    }
-
-    #[test]
-    fn vtu_round_trip(table in tables()) {
-        let mut bytes = Vec::new();
-        write_vtu(&table, &mut bytes).unwrap();
-        agree(&read_vtu(&bytes, Path::new("p.vtu")).unwrap(), &table)?;
+    fn round_trips(table in tables()) {
+        for (format, ending) in PARTICLE_FORMATS {
+            let bytes = written(format, &table);
+            let columns = read_back(format, &bytes).map_err(|e| TestCaseError::fail(format!("{ending}: {e}")))?;
+            agree(&columns, &table)?;
+        }
     }
 
     #[test]
@@ -113,20 +112,221 @@ proptest! {
         place in 0.0..1.0_f64,
         byte in any::<u8>(),
     ) {
-        let mut vtu = Vec::new();
-        write_vtu(&table, &mut vtu).unwrap();
-        let mut csv = Vec::new();
-        write_csv(&table, &mut csv).unwrap();
-        for bytes in [&mut vtu, &mut csv] {
+        for (format, _) in PARTICLE_FORMATS {
+            let mut bytes = written(format, &table);
             let at = (place * bytes.len() as f64) as usize;
             bytes[at] = byte;
             let end = (cut * bytes.len() as f64) as usize;
             for part in [&bytes[..], &bytes[..end]] {
-                let _ = read_vtu(part, Path::new("p.vtu"));
-                let _ = read_csv(part, Path::new("p.csv"));
+                for (reader, _) in PARTICLE_FORMATS.iter().filter(|(f, _)| *f != ParticleFormat::Vtk) {
+                    let _ = read_back(*reader, part);
+                }
             }
         }
     }
+}
+
+fn written(format: ParticleFormat, table: &Table) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    format.write(table, &mut bytes).unwrap();
+    bytes
+}
+
+fn read_back(format: ParticleFormat, bytes: &[u8]) -> Result<Columns, Error> {
+    let path = Path::new("p");
+    match format {
+        ParticleFormat::Csv => read_csv(bytes, path),
+        ParticleFormat::Vtu | ParticleFormat::Vtp => read_vtu(bytes, path),
+        ParticleFormat::Npz => read_npz(bytes, path),
+        ParticleFormat::Ply => read_ply(bytes, path),
+        ParticleFormat::Vtk => Ok(read_vtk(bytes)),
+    }
+}
+
+/// A body whose name is as awkward as a scene lets it be.
+const AWKWARD: &str =
+    " \u{2003}left; \"wing\" #1, 'öl' & <Ω> 翼 a name of more than sixty-four bytes ";
+
+fn one_particle(dimension: usize) -> Table {
+    let flat = |[x, y, z]: [f64; 3]| [x, y, if dimension == 2 { 0.0 } else { z }];
+    Table {
+        dimension,
+        stop_reason: "interrupted".into(),
+        bodies: vec!["other".into(), AWKWARD.into()],
+        id: vec![u32::MAX],
+        position: vec![flat([0.1, -0.2, 1.0 / 3.0])],
+        kind: vec![Kind::Boundary],
+        side: vec![Side::Solid],
+        body: vec![Some(1)],
+        volume: vec![1e-30],
+        mass: vec![5e-324],
+        gamma: vec![1.0],
+        residual: vec![0.0],
+        normal: vec![flat([0.6, -0.0, 0.8])],
+    }
+}
+
+#[test]
+fn no_particle_and_one() {
+    for dimension in [2, 3] {
+        let one = one_particle(dimension);
+        let none = one.filtered(|_| false);
+        let nothing = Table {
+            dimension,
+            ..Table::default()
+        };
+        for (format, ending) in PARTICLE_FORMATS {
+            for table in [&one, &none, &nothing] {
+                let columns = read_back(format, &written(format, table));
+                let columns = columns.unwrap_or_else(|e| panic!("{ending}: {e}"));
+                agree(&columns, table).unwrap_or_else(|e| panic!("{ending}: {e}"));
+                let z = columns.numbers.get("z");
+                match format {
+                    ParticleFormat::Csv | ParticleFormat::Npz => {
+                        assert_eq!(z.is_some(), dimension == 3);
+                    }
+                    // Formats of three coordinates.
+                    _ => assert_eq!(*z.unwrap(), axis(&table.position, 2), "{ending}"),
+                }
+                assert_eq!(
+                    columns.numbers.contains_key("nz"),
+                    dimension == 3 || format == ParticleFormat::Ply
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_no_file_may_hold() {
+    let refuse = |table: &Table, part: &str| {
+        for (format, ending) in PARTICLE_FORMATS {
+            let mut bytes = Vec::new();
+            let error = format.write(table, &mut bytes).unwrap_err().to_string();
+            assert!(error.contains(part), "{ending}: {error}");
+            assert!(bytes.is_empty(), "{ending}");
+        }
+    };
+    let with = |change: fn(&mut Table)| {
+        let mut table = one_particle(3);
+        change(&mut table);
+        table
+    };
+    refuse(
+        &with(|t| t.gamma[0] = f64::NAN),
+        "gamma of particle 4294967295 is NaN",
+    );
+    refuse(&with(|t| t.mass[0] = f64::INFINITY), "mass");
+    refuse(&with(|t| t.position[0][2] = f64::NAN), "z of particle");
+    refuse(&with(|t| t.normal[0][1] = f64::NAN), "ny of particle");
+    refuse(&with(|t| t.bodies[0] = "a\nb".into()), "control character");
+}
+
+#[test]
+fn a_writer_that_fails_leaves_nothing() {
+    /// A disk with room for so many bytes.
+    struct Full(usize);
+    impl std::io::Write for Full {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            self.0 = self
+                .0
+                .checked_sub(bytes.len())
+                .ok_or_else(|| std::io::Error::other("full"))?;
+            Ok(bytes.len())
+        }
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+    let table = one_particle(3);
+    for (format, ending) in PARTICLE_FORMATS {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(format!("p.{ending}"));
+        let size = written(format, &table).len();
+        for room in [0, size / 2, size - 1] {
+            // Errors come through at any place …
+            assert!(format.write(&table, &mut Full(room)).is_err(), "{ending}");
+            // … and no file is left, under any name.
+            let mut files = WholeFiles::new(true);
+            let failed = files.write(&path, |to| {
+                format.write(&table, to)?;
+                format.write(&table, &mut Full(room))
+            });
+            assert!(failed.unwrap_err().to_string().contains("full"));
+            drop(files);
+            assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        }
+        std::fs::write(&path, "precious").unwrap();
+        let mut files = WholeFiles::new(false);
+        files.write(&path, |to| format.write(&table, to)).unwrap();
+        assert!(files.finish().is_err());
+        assert_eq!(std::fs::read(&path).unwrap(), b"precious");
+    }
+}
+
+#[test]
+fn archives_beyond_32_bits() {
+    let table = one_particle(3);
+    for limit in [0, 1, 129, 300, 1000] {
+        let mut bytes = Vec::new();
+        let mut archive = zip::Zip::with_limit(&mut bytes, limit);
+        npz::write(&table, &mut archive).unwrap();
+        archive.finish("").unwrap();
+        agree(&read_back(ParticleFormat::Npz, &bytes).unwrap(), &table).unwrap();
+    }
+}
+
+#[test]
+fn npz_of_others() {
+    // numpy.savez_compressed of x (32 bits), y (whole numbers), an array of two axes and one of another length.
+    let columns = read_npz(include_bytes!("others.npz"), Path::new("p.npz")).unwrap();
+    assert_eq!(columns.numbers["x"], [0.5, 1.5, -2.0]);
+    assert_eq!(columns.numbers["y"], [1.0, 2.0, 3.0]);
+    assert_eq!(columns.words["kind"], ["free", "frozen", "é"]);
+    assert_eq!(columns.numbers.len() + columns.words.len(), 3);
+    let good = written(ParticleFormat::Npz, &one_particle(3));
+    let mut bad = good.clone();
+    bad[140] ^= 1;
+    for (bytes, part) in [
+        (&b"PK"[..], "no NPZ file"),
+        (&good[..good.len() - 60], "no NPZ file"),
+        (&bad[..], "checksum"),
+    ] {
+        let message = read_npz(bytes, Path::new("p.npz")).unwrap_err().to_string();
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+}
+
+#[test]
+fn ply_of_others() {
+    let text = "ply\r\nformat ascii 1.0\ncomment by hand\nelement thing 1\nproperty list uchar int all\nelement vertex 2\n\
+        property float x\nproperty float y\nproperty uchar kind\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n\
+        3 0 1 2\n1 2 0\n3 4 3\n";
+    let columns = read_ply(text.as_bytes(), Path::new("p.ply")).unwrap();
+    assert_eq!(columns.numbers["x"], [1.0, 3.0]);
+    assert_eq!(columns.numbers["kind"], [0.0, 3.0]);
+    for (from, to, part) in [
+        ("ply", "PLY!", "no PLY file"),
+        ("end_header", "end", "no PLY file"),
+        ("vertex 2", "vertex 9", "fewer than 9"),
+        ("3 4 3", "3 four 3", "3 four 3"),
+        ("float y", "real y", "type of y"),
+        ("ascii", "binary_big_endian", "lists"),
+        ("element vertex", "element point", "no vertices"),
+    ] {
+        let message = read_ply(text.replacen(from, to, 1).as_bytes(), Path::new("p.ply"))
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+    let mut big = b"ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty short x\nproperty double y\nend_header\n".to_vec();
+    big.extend((-7_i16).to_be_bytes());
+    big.extend(0.25_f64.to_be_bytes());
+    let columns = read_ply(&big, Path::new("p.ply")).unwrap();
+    assert_eq!(
+        [columns.numbers["x"][0], columns.numbers["y"][0]],
+        [-7.0, 0.25]
+    );
 }
 
 #[track_caller]
@@ -171,7 +371,7 @@ fn vtu_of_others() {
             "compressed",
         ),
         ("LittleEndian", "BigEndian", "big-endian"),
-        ("UnstructuredGrid", "PolyData", "PolyData"),
+        ("UnstructuredGrid", "ImageData", "ImageData"),
         ("\"2\"", "\"9\"", "9 points"),
         ("0.25", "a quarter", "no number"),
         ("format=\"ascii\">1", "format=\"binary\">1", "binary"),

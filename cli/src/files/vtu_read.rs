@@ -1,9 +1,10 @@
-//! Reading VTK's unstructured grids, as far as particles need it: points and their numbers, as text or appended raw.
+//! Reading VTK's XML files (unstructured grids and polygonal data), as far as particles need it: points and their numbers, as text or appended raw.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::Columns;
+use super::number_type::{ByteOrder, NumberType};
 use crate::Error;
 
 /// Reads particles: points, and every point array of one component. Arrays of integers with a field array
@@ -93,7 +94,8 @@ fn read(bytes: &[u8]) -> Result<Columns, String> {
                 };
                 appended.bytes = appended_bytes(&bytes[end..])?;
             }
-            "FieldData" | "Points" | "PointData" | "Cells" | "CellData" => section = tag.name,
+            "FieldData" | "Points" | "PointData" | "Cells" | "CellData" | "Verts" | "Lines"
+            | "Strips" | "Polys" => section = tag.name,
             "Piece" if count.is_some() => {
                 return Err(
                     "the file has several pieces; merge them into one and save again".into(),
@@ -131,7 +133,7 @@ fn read(bytes: &[u8]) -> Result<Columns, String> {
     }
     if !is_vtk {
         return Err(
-            "this is no VTU file; a VTU file begins with <VTKFile type=\"UnstructuredGrid\"".into(),
+            "this is no VTU or VTP file; one begins with <VTKFile type=\"UnstructuredGrid\" or \"PolyData\"".into(),
         );
     }
     let points = points.ok_or_else(|| damaged("it has no points"))?;
@@ -140,42 +142,33 @@ fn read(bytes: &[u8]) -> Result<Columns, String> {
         columns.numbers.insert(name.to_owned(), coordinates);
     }
     for (name, words) in names {
-        let Some(column) = name.strip_suffix("_names") else {
-            continue;
-        };
-        if let Some(numbers) = columns.numbers.remove(column) {
-            let word = |number: &f64| match *number {
-                k if k >= 0.0 && (k as usize) < words.len() => words[k as usize].clone(),
-                _ => String::new(),
-            };
-            columns
-                .words
-                .insert(column.to_owned(), numbers.iter().map(word).collect());
+        if let Some(column) = name.strip_suffix("_names") {
+            columns.name(column, |code| words.get(code).cloned());
         }
     }
     Ok(columns)
 }
 
 fn damaged(what: &str) -> String {
-    format!("the VTU file is damaged: {what}; write it again")
+    format!("the VTK file is damaged: {what}; write it again")
 }
 
 fn check_head(tag: &Tag<'_>) -> Result<(), String> {
     let cure = "save it uncompressed, little-endian, appended raw or ascii (or as .csv)";
-    if tag.get("type") != "UnstructuredGrid" {
+    if !["UnstructuredGrid", "PolyData"].contains(&tag.get("type")) {
         return Err(format!(
-            "this is a VTK file of type \"{}\"; particles are read from type \"UnstructuredGrid\" (.vtu)",
+            "this is a VTK file of type \"{}\"; particles are read from types \"UnstructuredGrid\" (.vtu) and \"PolyData\" (.vtp)",
             tag.get("type")
         ));
     }
     if tag.get("byte_order") == "BigEndian" {
         return Err(format!(
-            "the VTU file is big-endian, which is not read; {cure}"
+            "the VTK file is big-endian, which is not read; {cure}"
         ));
     }
     if !tag.get("compressor").is_empty() {
         return Err(format!(
-            "the VTU file is compressed, which is not read; {cure}"
+            "the VTK file is compressed, which is not read; {cure}"
         ));
     }
     Ok(())
@@ -188,7 +181,7 @@ fn appended_bytes(tail: &[u8]) -> Result<&[u8], String> {
     }
     let close = find(tail, b">").ok_or_else(|| damaged("its end is missing"))?;
     if find(&tail[..close], b"raw").is_none() {
-        return Err("the VTU file's numbers are in base64, which is not read; save it appended raw or ascii (or as .csv)".into());
+        return Err("the VTK file's numbers are in base64, which is not read; save it appended raw or ascii (or as .csv)".into());
     }
     let start = find(&tail[close..], b"_").ok_or_else(|| damaged("its end is missing"))?;
     Ok(&tail[close + start + 1..])
@@ -234,15 +227,13 @@ fn numbers(
                 .get("offset")
                 .parse()
                 .map_err(|_| damaged(&format!("array {name} has no offset")))?;
-            decode(
-                tag.get("type"),
-                block(appended, offset)
-                    .ok_or_else(|| damaged(&format!("array {name} is cut off")))?,
-            )?
+            let bytes = block(appended, offset)
+                .ok_or_else(|| damaged(&format!("array {name} is cut off")))?;
+            number_type(tag.get("type"))?.numbers(ByteOrder::Little, bytes)
         }
         other => {
             return Err(format!(
-                "array {name} of the VTU file is in format \"{other}\", which is not read; save it appended raw or ascii (or as .csv)"
+                "array {name} of the VTK file is in format \"{other}\", which is not read; save it appended raw or ascii (or as .csv)"
             ));
         }
     };
@@ -264,28 +255,18 @@ fn block<'a>(appended: &Appended<'a>, offset: usize) -> Option<&'a [u8]> {
     appended.bytes.get(start..start.checked_add(length)?)
 }
 
-fn decode(kind: &str, bytes: &[u8]) -> Result<Vec<f64>, String> {
-    fn each<const N: usize>(bytes: &[u8], number: impl Fn([u8; N]) -> f64) -> Vec<f64> {
-        bytes
-            .chunks_exact(N)
-            .map(|chunk| {
-                let mut raw = [0; N];
-                raw.copy_from_slice(chunk);
-                number(raw)
-            })
-            .collect()
-    }
-    Ok(match kind {
-        "Float64" => each(bytes, f64::from_le_bytes),
-        "Float32" => each(bytes, |raw| f32::from_le_bytes(raw).into()),
-        "Int8" => each(bytes, |raw| i8::from_le_bytes(raw).into()),
-        "UInt8" => each(bytes, |raw| u8::from_le_bytes(raw).into()),
-        "Int16" => each(bytes, |raw| i16::from_le_bytes(raw).into()),
-        "UInt16" => each(bytes, |raw| u16::from_le_bytes(raw).into()),
-        "Int32" => each(bytes, |raw| i32::from_le_bytes(raw).into()),
-        "UInt32" => each(bytes, |raw| u32::from_le_bytes(raw).into()),
-        "Int64" => each(bytes, |raw| i64::from_le_bytes(raw) as f64),
-        "UInt64" => each(bytes, |raw| u64::from_le_bytes(raw) as f64),
-        _ => return Err(damaged(&format!("\"{kind}\" is no type of numbers"))),
+fn number_type(name: &str) -> Result<NumberType, String> {
+    Ok(match name {
+        "Float64" => NumberType::F64,
+        "Float32" => NumberType::F32,
+        "Int8" => NumberType::I8,
+        "UInt8" => NumberType::U8,
+        "Int16" => NumberType::I16,
+        "UInt16" => NumberType::U16,
+        "Int32" => NumberType::I32,
+        "UInt32" => NumberType::U32,
+        "Int64" => NumberType::I64,
+        "UInt64" => NumberType::U64,
+        _ => return Err(damaged(&format!("\"{name}\" is no type of numbers"))),
     })
 }

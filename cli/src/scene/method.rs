@@ -20,6 +20,8 @@ pub enum Method {
     Relaxation,
     /// Relaxation of bodies and fluid together (004).
     Complex,
+    /// Stirred until the surface has its share (000).
+    Agitated,
     /// Fluid between fixed walls (002).
     Ppa,
     /// The lattice clipped by the bodies (000 §3).
@@ -57,7 +59,7 @@ const USUAL: MethodInfo = MethodInfo {
 };
 
 /// Every method that has a name.
-pub const METHODS: [MethodInfo; 8] = [
+pub const METHODS: [MethodInfo; 9] = [
     MethodInfo {
         minimises: true,
         summary: "surface first, counts balanced, then a minimiser (the default)",
@@ -95,6 +97,12 @@ pub const METHODS: [MethodInfo; 8] = [
         name: "complex",
         is_available: false,
         summary: "relaxation of bodies and fluid together",
+        ..USUAL
+    },
+    MethodInfo {
+        method: Method::Agitated,
+        name: "agitated",
+        summary: "stirred by particles on circles until the surface has its share (paper 000)",
         ..USUAL
     },
     MethodInfo {

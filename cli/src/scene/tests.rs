@@ -87,8 +87,15 @@ fn the_template_packs_and_knows_every_key() {
     let default = PackingSpec::default();
     let settling = default.settling();
     assert_eq!(scene.packing.settling().tolerance(), settling.tolerance());
-    assert_eq!(scene.packing.settling().minimiser, settling.minimiser);
+    let of_scene = scene.packing.settling();
+    assert_eq!(of_scene.minimiser, settling.minimiser);
+    assert_eq!(of_scene.levelling, settling.levelling);
+    assert_eq!(scene.packing.kernel(), default.kernel());
+    assert_eq!(scene.packing.h_over_spacing(), default.h_over_spacing());
     let said = PackingSpec {
+        kernel: scene.packing.kernel,
+        h_over_spacing: scene.packing.h_over_spacing,
+        levelling: scene.packing.levelling,
         minimiser: scene.packing.minimiser,
         residual_tolerance: scene.packing.residual_tolerance,
         ..default
@@ -287,7 +294,7 @@ fn numbers_out_of_range_are_named() {
         ("h_over_spacing = 20", "between 0.5 and 5"),
         ("velocity_tolerance = 0", "velocity_tolerance is 0"),
         ("max_iterations = -1", "-1"),
-        ("method = \"standard\"", "not in this version"),
+        ("method = \"relaxation\"", "not in this version"),
         ("minimiser = \"newton\"", "no minimiser is called"),
         ("mass_spread = 1.5", "mass_spread is 1.5"),
         ("levelling = -1", "levelling is -1"),

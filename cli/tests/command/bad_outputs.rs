@@ -13,8 +13,11 @@ fn endings_must_be_known() {
         all.extend(arguments);
         desk().refuse(&all, parts);
     };
-    refuse(&["-o", "out.xyz"], &["out.xyz", "vtu, csv"]);
-    refuse(&["-o", "out.vtk"], &["did you mean \"vtu\"?"]);
+    refuse(
+        &["-o", "out.xyz"],
+        &["out.xyz", "vtu, csv, npz, vtp, vtk, ply"],
+    );
+    refuse(&["-o", "out.vtx"], &["did you mean \"vtu\"?"]);
     refuse(&["-o", "out"], &["out", "vtu, csv"]);
     refuse(&["--picture", "out.jpg"], &["out.jpg", "png, svg"]);
     refuse(&["--report", "out.txt"], &["out.txt", ".json"]);
@@ -94,7 +97,7 @@ fn command_lines_are_checked() {
             "from 1 to 1024",
         ),
         (
-            &["pack", "scene.toml", "--method", "standard"],
+            &["pack", "scene.toml", "--method", "relaxation"],
             "not in this version",
         ),
     ] {

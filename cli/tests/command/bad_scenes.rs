@@ -36,7 +36,7 @@ fn unknown_words_are_located() {
     );
     refuse(
         "[packing]",
-        "[packing]\nmethod = \"coupled\"",
+        "[packing]\nmethod = \"relaxation\"",
         &["scene.toml:9:10", "not in this version", "hybrid"],
     );
     refuse("[packing]", "[packing", &["scene.toml:8:"]);

@@ -10,6 +10,7 @@ mod dirty_meshes;
 mod good_runs;
 mod interrupts;
 mod measuring;
+mod particle_files;
 mod precedence;
 
 use std::fs;

@@ -1,0 +1,37 @@
+//! What no particle file may hold.
+
+use std::io;
+
+use crate::table::Table;
+
+/// Refuses numbers that are not finite, and names of bodies that would break lines.
+pub(super) fn check(table: &Table) -> io::Result<()> {
+    let refuse = |message: String| Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    if let Some(name) = (table.bodies.iter()).find(|name| name.chars().any(char::is_control)) {
+        return refuse(format!(
+            "the name of body {name:?} holds a control character"
+        ));
+    }
+    for i in 0..table.len() {
+        let [[x, y, z], [nx, ny, nz]] = [table.position[i], table.normal[i]];
+        let row = [
+            ("x", x),
+            ("y", y),
+            ("z", z),
+            ("volume", table.volume[i]),
+            ("mass", table.mass[i]),
+            ("gamma", table.gamma[i]),
+            ("residual", table.residual[i]),
+            ("nx", nx),
+            ("ny", ny),
+            ("nz", nz),
+        ];
+        if let Some((name, number)) = row.iter().find(|(_, number)| !number.is_finite()) {
+            return refuse(format!(
+                "{name} of particle {} is {number}, which is no finite number",
+                table.id[i]
+            ));
+        }
+    }
+    Ok(())
+}

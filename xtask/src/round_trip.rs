@@ -1,0 +1,178 @@
+//! Writes particles in every format and has them read by others: NumPy, pyvista, meshio.
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use sphpack::files::PARTICLE_FORMATS;
+use sphpack::{Options, Scene, run as pack};
+use sphpack_packing::Silent;
+
+use crate::root;
+
+/// What the script needs besides Python.
+const PACKAGES: [&str; 3] = ["numpy", "pyvista", "meshio"];
+
+/// Bodies of several densities and awkward names, one with a wall alone.
+const SCENES: [(&str, &str); 2] = [
+    (
+        "plane",
+        "\
+spacing = 0.1
+[domain]
+min = [-2, -1]
+max = [2, 1]
+periodic = [true, false]
+[[body]]
+name = \"left; 'wing', \\\"öl\\\" & <Ω> 翼, which is more than sixty-four bytes long\"
+density = 2.5
+shape = { circle = { center = [-1, 0], radius = 0.5 } }
+[[body]]
+name = \"second\"
+density = 0.125
+shape = { box = { min = [0.5, -0.5], max = [1.5, 0.5] } }
+[output]
+include = [\"free\", \"boundary\", \"fixed\"]
+",
+    ),
+    (
+        "space",
+        "\
+spacing = 0.15
+[domain]
+min = [-0.75, -0.75, -0.75]
+max = [0.75, 0.75, 0.75]
+[[body]]
+name = \" kugel #1 \"
+density = 7.8
+shape = { sphere = { center = [0, 0, 0], radius = 0.45 } }
+",
+    ),
+];
+
+/// What to run.
+#[derive(Debug, Default)]
+pub(crate) struct Settings {
+    /// The interpreter.
+    python: Option<PathBuf>,
+    /// Make an environment with the packages first.
+    install: bool,
+}
+
+impl Settings {
+    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
+        let mut settings = Self::default();
+        let mut arguments = arguments.iter();
+        while let Some(argument) = arguments.next() {
+            match argument.as_str() {
+                "--install" => settings.install = true,
+                "--python" => {
+                    let python = arguments.next().ok_or("--python needs a program")?;
+                    settings.python = Some(python.into());
+                }
+                other => {
+                    return Err(format!(
+                        "round-trip does not know {other}; see cargo xtask help"
+                    ));
+                }
+            }
+        }
+        if settings.install && settings.python.is_some() {
+            return Err("--install makes an environment of its own: leave --python out".to_owned());
+        }
+        Ok(settings)
+    }
+}
+
+/// Packs, writes, and compares what others read with the CSV files, bit for bit.
+pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+    let folder = root().join("target/round-trip");
+    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let python = python(settings, &folder)?;
+    for (name, text) in SCENES {
+        write(name, text, &folder)?;
+    }
+    let script = root().join("xtask/round_trip.py");
+    let mut command = Command::new(&python);
+    command.arg(script).arg(&folder);
+    finish(&mut command)
+}
+
+/// An interpreter that has the packages.
+fn python(settings: &Settings, folder: &Path) -> Result<PathBuf, String> {
+    let environment = folder.join("venv");
+    let own = ["bin/python", "Scripts/python.exe"].map(|program| environment.join(program));
+    let there = || own.iter().find(|program| program.is_file()).cloned();
+    if settings.install {
+        finish(
+            Command::new("python3")
+                .args(["-m", "venv"])
+                .arg(&environment),
+        )?;
+        let python = there().ok_or("python3 -m venv has made no interpreter")?;
+        finish(
+            Command::new(python)
+                .args(["-m", "pip", "install", "--quiet"])
+                .args(PACKAGES),
+        )?;
+    }
+    let python = (settings.python.clone())
+        .or_else(there)
+        .unwrap_or_else(|| "python3".into());
+    let lacks = |package: &&str| {
+        Command::new(&python)
+            .args(["-c", &format!("import {package}")])
+            .output()
+            .map(|output| !output.status.success())
+    };
+    let mut missing = Vec::new();
+    for package in &PACKAGES {
+        match lacks(package) {
+            Ok(true) => missing.push(*package),
+            Ok(false) => {}
+            Err(error) => {
+                return Err(format!(
+                    "{} cannot be run ({error}); name a Python with --python PROGRAM",
+                    python.display()
+                ));
+            }
+        }
+    }
+    if missing.is_empty() {
+        return Ok(python);
+    }
+    Err(format!(
+        "{} lacks {}; name another with --python PROGRAM, or let --install put them into {}",
+        python.display(),
+        missing.join(", "),
+        environment.display()
+    ))
+}
+
+fn write(name: &str, text: &str, folder: &Path) -> Result<(), String> {
+    let scene = Scene::parse(text, Path::new(name)).map_err(|error| error.to_string())?;
+    let outcome =
+        pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
+    let rows = (outcome.table).filtered(|i| scene.includes(outcome.table.kind[i]));
+    for (format, ending) in PARTICLE_FORMATS {
+        let path = folder.join(format!("{name}.{ending}"));
+        let attempt = || {
+            let mut to = BufWriter::new(File::create(&path)?);
+            format.write(&rows, &mut to)?;
+            to.flush()
+        };
+        attempt().map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    println!("{name}: {} particles", rows.len());
+    Ok(())
+}
+
+fn finish(command: &mut Command) -> Result<(), String> {
+    let shown = format!("{command:?}");
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{shown}: {status}")),
+        Err(error) => Err(format!("{shown}: {error}")),
+    }
+}
