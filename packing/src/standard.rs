@@ -148,8 +148,14 @@ fn layers<const D: usize>(
             let earlier = &problem.bodies[..usize::from(number)];
             earlier.iter().any(|other| other.surface.inside(p))
         };
+        // No body is deeper than half of its box is thin.
+        let size = body.surface.bounds().size();
+        let deepest = 0.5 * size.into_iter().fold(f64::INFINITY, f64::min);
         for layer in 0.. {
             let depth = (body.inset_over_spacing + f64::from(layer)) * problem.spacing;
+            if depth > deepest {
+                break;
+            }
             let surface = match body.surface.inset(depth) {
                 Ok(surface) => surface,
                 Err(GeometryError::Vanished { .. }) => break,
