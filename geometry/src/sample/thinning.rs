@@ -12,6 +12,9 @@ use crate::surface::Closest;
 /// Candidates nearer than this many spacings crowd each other: the nearest distance of a perfect hexagonal lattice.
 const REACH: f64 = 1.07;
 
+/// Levels of crowding that are told apart, per pair at no distance.
+const LEVELS: f64 = 1e6;
+
 /// Cosine of the angle between two normals up to which points are on the same side of the body.
 const SAME_SIDE: f64 = 0.0;
 
@@ -41,12 +44,11 @@ pub(crate) fn keep_evenest<const D: usize>(
     let mut crowding: Vec<f64> = (0..count)
         .map(|i| near[i].iter().map(|&j| weight(i, j as usize)).sum())
         .collect();
-    let mut heap: BinaryHeap<Ranked> = (0..count)
-        .map(|index| Ranked {
-            rank: crowding[index],
-            index,
-        })
-        .collect();
+    let ranked = |index: usize, crowding: f64| Ranked {
+        rank: level(crowding),
+        index,
+    };
+    let mut heap: BinaryHeap<Ranked> = (0..count).map(|i| ranked(i, crowding[i])).collect();
     let mut gone = vec![false; count];
     let mut left = count;
     while left > keep {
@@ -54,11 +56,8 @@ pub(crate) fn keep_evenest<const D: usize>(
             break;
         };
         // Crowding only ever falls: what has fallen since goes back to its place.
-        if crowding[i] < rank {
-            heap.push(Ranked {
-                rank: crowding[i],
-                index: i,
-            });
+        if level(crowding[i]) < rank {
+            heap.push(ranked(i, crowding[i]));
             continue;
         }
         gone[i] = true;
@@ -71,6 +70,12 @@ pub(crate) fn keep_evenest<const D: usize>(
         }
     }
     (0..count).filter(|&i| !gone[i]).collect()
+}
+
+/// Crowding as it counts: to one part in a million of the greatest that a pair can have. Candidates along a straight
+/// side are equally crowded, and which of them goes first is not for rounding to say.
+fn level(crowding: f64) -> f64 {
+    (LEVELS * crowding).round()
 }
 
 /// For each spot those that it crowds.

@@ -361,3 +361,28 @@ fn thickness_is_that_between_opposite_sides() {
         assert_eq!(thickness(&faceted, &hit, 0.5), 0.5);
     }
 }
+
+/// Which of equals is taken is not left to rounding.
+#[test]
+fn scene_units_do_not_matter() {
+    let points = [[-0.6, -0.4], [0.7, 0.0], [-0.6, 0.5], [-0.3, 0.05]];
+    let of = |unit: f64| {
+        let body = Outline::polygon(&points.map(|p| point::scale(p, unit))).unwrap();
+        let found = all_points(&sampled(&body, 0.07 * unit));
+        found
+            .into_iter()
+            .map(|p| point::scale(p, 1.0 / unit))
+            .collect::<Vec<_>>()
+    };
+    let here = of(1.0);
+    for exponent in [-6, -3, -1, 1, 2, 5] {
+        let there = of(10.0_f64.powi(exponent));
+        assert_eq!(there.len(), here.len());
+        let farthest = here
+            .iter()
+            .zip(&there)
+            .map(|(a, b)| point::distance(*a, *b))
+            .fold(0.0, f64::max);
+        assert!(farthest < 1e-9, "10^{exponent}: {farthest}");
+    }
+}
