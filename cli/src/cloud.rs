@@ -198,7 +198,7 @@ impl Cloud {
                 .filter(|&&i| self.kind[i] == Kind::Boundary)
                 .map(|&i| h * point::norm(point::reject(fields.gradient[i], cut(&normals[i]))))
         });
-        let lattice = Lattice::auto(D).gamma(kernel, h_over_spacing);
+        let lattice = Lattice::auto(D, kernel, h_over_spacing).gamma(kernel, h_over_spacing);
         Ok(CloudQuality {
             density: DensityQuality::of(&gamma, lattice),
             residual: ResidualQuality::of(&free, tangential.fold(0.0, f64::max)),

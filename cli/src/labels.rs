@@ -20,6 +20,9 @@ pub(crate) struct Sorted {
     pub(crate) keep: Vec<bool>,
 }
 
+/// How many particles are asked about surfaces at once, so that the answers never take more memory than they.
+const AT_ONCE: usize = 1 << 18;
+
 /// Sorts packed particles by body and role.
 ///
 /// Solids and voids hold what is inside their particle surface; a container holds only its wall, the particles on its
@@ -46,37 +49,22 @@ pub(crate) fn sort<const D: usize>(
     let inner: Vec<usize> = (0..particles.len())
         .filter(|&i| particles.kind[i] != Kind::Frozen)
         .collect();
-    let positions: Vec<[f64; D]> = inner.iter().map(|&i| particles.position[i]).collect();
     let on_surface: Vec<Option<u16>> = inner
         .iter()
         .map(|&i| {
             let body = particles.body[i].filter(|_| particles.kind[i].is_on_surface())?;
-            holders
-                .iter()
-                .position(|&holder| holder == body)
-                .map(|place| place as u16)
+            place_of(&holders, body)
         })
         .collect();
-    let reach = REACH_OVER_SPACING * packed.spacing;
-    let inside = separate(&positions, &on_surface, &surfaces, reach)?;
-
-    // A particle that has slipped into the layer of surface particles is still part of what it was placed in.
-    let placed_in: Vec<Option<u16>> = if packed.knows_sides {
-        let near = LAYER_OVER_SPACING * packed.spacing;
-        let mut held = inside.body;
-        for ((held, &i), p) in held.iter_mut().zip(&inner).zip(&positions) {
-            let body = particles.body[i]
-                .and_then(|body| holders.iter().position(|&holder| holder == body))
-                .map(|place| place as u16);
-            let crossed = [*held, body].into_iter().flatten();
-            let is_near = |place: u16| surfaces[usize::from(place)].closest_within(*p, near);
-            if *held != body && crossed.clone().all(|place| is_near(place).is_some()) {
-                *held = body;
-            }
-        }
-        held
+    let held = if packed.knows_sides {
+        let placed: Vec<Option<u16>> = (inner.iter())
+            .map(|&i| place_of(&holders, particles.body[i]?))
+            .collect();
+        known(packed, &inner, &on_surface, &placed, &surfaces)
     } else {
-        inside.body
+        let positions: Vec<[f64; D]> = inner.iter().map(|&i| particles.position[i]).collect();
+        let reach = REACH_OVER_SPACING * packed.spacing;
+        separate(&positions, &on_surface, &surfaces, reach)?.body
     };
 
     let mut labels = Labels {
@@ -84,7 +72,7 @@ pub(crate) fn sort<const D: usize>(
         body: vec![None; particles.len()],
     };
     let mut keep = vec![true; particles.len()];
-    for (&i, held) in inner.iter().zip(&placed_in) {
+    for (&i, held) in inner.iter().zip(&held) {
         let sits_on = particles.body[i].filter(|_| particles.kind[i].is_on_surface());
         let body = held.map(|place| holders[usize::from(place)]);
         match (body, sits_on) {
@@ -101,9 +89,13 @@ pub(crate) fn sort<const D: usize>(
     }
     for body in 0..packed.surfaces.len() as u16 {
         if role(body) == Role::Container {
-            let held = surface(body).inside_batch(&positions);
-            for (&i, held) in inner.iter().zip(held) {
-                keep[i] &= held || particles.kind[i].is_on_surface();
+            for inner in inner.chunks(AT_ONCE) {
+                let positions: Vec<[f64; D]> =
+                    inner.iter().map(|&i| particles.position[i]).collect();
+                let held = surface(body).inside_batch(&positions);
+                for (&i, held) in inner.iter().zip(held) {
+                    keep[i] &= held || particles.kind[i].is_on_surface();
+                }
             }
         }
     }
@@ -114,4 +106,55 @@ pub(crate) fn sort<const D: usize>(
         keep[i] &= !is_left_out;
     }
     Ok(Sorted { labels, keep })
+}
+
+/// The place of a body among those that hold their inside.
+fn place_of(holders: &[u16], body: u16) -> Option<u16> {
+    let place = holders.iter().position(|&holder| holder == body)?;
+    Some(place as u16)
+}
+
+/// Which surface holds each of the particles `inner`, where it is known in which each was `placed`. Those far from every
+/// surface are where they were placed; the others are asked. A particle that has slipped into the layer of surface
+/// particles is still part of what it was placed in.
+fn known<const D: usize>(
+    packed: &Packed<D>,
+    inner: &[usize],
+    on_surface: &[Option<u16>],
+    placed: &[Option<u16>],
+    surfaces: &[Arc<dyn Surface<D>>],
+) -> Vec<Option<u16>> {
+    let layer = LAYER_OVER_SPACING * packed.spacing;
+    let reach = REACH_OVER_SPACING * packed.spacing;
+    let mut all = placed.to_vec();
+    let chunks = (inner.chunks(AT_ONCE).zip(on_surface.chunks(AT_ONCE)))
+        .zip(placed.chunks(AT_ONCE).zip(all.chunks_mut(AT_ONCE)));
+    for ((inner, on_surface), (placed, all)) in chunks {
+        let positions: Vec<[f64; D]> = (inner.iter())
+            .map(|&i| packed.particles.position[i])
+            .collect();
+        // The signed distance from each surface, where it is near.
+        let near: Vec<Vec<Option<f64>>> = (surfaces.iter())
+            .map(|surface| {
+                let hits = surface.closest_batch(&positions, reach).into_iter();
+                hits.map(|hit| hit.map(|hit| hit.distance)).collect()
+            })
+            .collect();
+        for (i, held) in all.iter_mut().enumerate() {
+            let is_within = |place: u16| match near[usize::from(place)][i] {
+                Some(distance) => distance < 0.0,
+                None => placed[i] == Some(place),
+            };
+            let is_beside = |place: u16| {
+                near[usize::from(place)][i].is_some_and(|distance| distance.abs() <= layer)
+            };
+            let found =
+                on_surface[i].or_else(|| (0..surfaces.len() as u16).find(|&s| is_within(s)));
+            let mut crossed = [found, placed[i]].into_iter().flatten();
+            if found != placed[i] && !crossed.all(is_beside) {
+                *held = found;
+            }
+        }
+    }
+    all
 }

@@ -35,6 +35,7 @@ mod dimension;
 mod error;
 mod examined;
 pub mod files;
+mod hydrostatic;
 mod labels;
 mod methods;
 mod overlap;
@@ -45,6 +46,7 @@ mod report;
 mod run;
 pub mod scene;
 mod seen;
+mod surroundings;
 mod table;
 
 pub use body_file::{ReadBody, body_format};

@@ -2,6 +2,7 @@
 
 use sphpack_packing::{
     Agitated, Balanced, Band, Clipped, Coupled, Hybrid, Observer, Packed, Ppa, Problem, Standard,
+    Triangulated,
 };
 
 use crate::Error;
@@ -56,6 +57,7 @@ pub(crate) fn pack<const D: usize>(
         }
         .pack(problem, observer),
         Method::Clipped => Clipped.pack(problem, observer),
+        Method::Triangulated => Triangulated.pack(problem, observer),
         other => {
             return Err(Error::System(format!(
                 "this version has no method \"{}\"",

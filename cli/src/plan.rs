@@ -4,13 +4,13 @@ use std::time::Instant;
 
 use sphpack_geometry::GeometryError;
 use sphpack_neighbors::{Bounds, Domain};
-use sphpack_packing::{Body, Estimate, FrozenLayout, PackingError, Problem};
+use sphpack_packing::{Band, Body, Estimate, FrozenLayout, PackingError, Problem};
 
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Dimension, Space};
 use crate::report::kibibytes;
-use crate::scene::{Fault, Frozen, Role, Scene};
+use crate::scene::{BandWidth, Fault, Frozen, Method, Role, Scene, Surroundings};
 use crate::{overlap, precedence};
 
 /// What a scene will need.
@@ -48,6 +48,9 @@ const FALLBACK_BYTES: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
 
 /// Particles are numbered with 32 bits.
 const MAX_PARTICLES: f64 = 4e9;
+
+/// Bytes of a particle that is only written.
+const ROW_BYTES: f64 = 100.0;
 
 /// What a scene will need; builds its bodies, places no particles.
 ///
@@ -220,6 +223,19 @@ where
     }
     refuse_overlaps(scene, &bodies)?;
     let domain = domain(scene, &bodies);
+    if let Some(Surroundings { min, max }) = &scene.output.surroundings {
+        let Bounds {
+            min: low,
+            max: high,
+        } = &domain.bounds;
+        (scene.check_around([min, max], [low, high])).map_err(|Fault { message, .. }| {
+            Error::Scene {
+                path: scene.path.clone(),
+                at: None,
+                message,
+            }
+        })?;
+    }
     let problem = Problem {
         domain,
         spacing: scene.spacing,
@@ -237,8 +253,22 @@ where
         path: scene.path.clone(),
         source,
     };
-    let estimate = problem.estimate().map_err(fail)?;
+    let moves = match (scene.packing.method, scene.packing.band) {
+        (Method::Balanced, BandWidth::Auto) => {
+            Band::Auto.first_width(&problem, scene.packing.settling().finish)
+        }
+        (Method::Clipped, _) => 0.0,
+        _ => f64::INFINITY,
+    };
+    let mut estimate = problem.estimate(moves).map_err(fail)?;
     judged(&problem, scene).check().map_err(fail)?;
+    if let Some(Surroundings { min, max }) = &scene.output.surroundings {
+        let sides = min.iter().zip(max).map(|(low, high)| high - low);
+        let more =
+            sides.product::<f64>() / problem.filling().volume_per_site() - estimate.particles;
+        estimate.frozen = more.max(0.0);
+        estimate.memory_bytes += ROW_BYTES * more;
+    }
     let particles = estimate.particles + estimate.frozen;
     if estimate.memory_bytes > allowed_bytes || particles >= MAX_PARTICLES || particles.is_nan() {
         return Err(fail(PackingError::TooLarge {

@@ -7,6 +7,7 @@ use sphpack_separation::{Labels, Side};
 use crate::Error;
 use crate::body_file::ReadBody;
 use crate::dimension::{Dimension, Space};
+use crate::hydrostatic::AtRest;
 use crate::labels::{Sorted, sort};
 use crate::methods::pack;
 use crate::plan::{Prepared, available_bytes, dimension, judged, prepare};
@@ -102,10 +103,11 @@ where
     let sorted = sort(&packed, scene)
         .map_err(|e| Error::System(format!("particles cannot be separated: {e}")))?;
     let judge = judged(&problem, scene);
-    let mut seen = Seen::by(&judge, &problem, &packed);
+    let seen = Seen::by(&judge, &problem, &packed);
     let masses = (scene.packing.masses == Masses::Corrected)
         .then(|| seen.correct(&judge, &mut packed, &sorted, scene.packing.mass_spread));
-    let fields = seen.fields(&judge, &packed.particles.kind);
+    let fields = seen.fields(&judge, &packed);
+    drop(seen);
     let Sorted { labels, keep } = sorted;
     let quality = packed.quality(&fields);
     let solution = Solution {
@@ -131,7 +133,7 @@ where
 }
 
 /// A point with z = 0 where it has none.
-fn padded<const D: usize>(p: [f64; D]) -> [f64; 3] {
+pub(crate) fn padded<const D: usize>(p: [f64; D]) -> [f64; 3] {
     std::array::from_fn(|k| p.get(k).copied().unwrap_or(0.0))
 }
 
@@ -144,12 +146,28 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
     } = solution;
     let particles = &packed.particles;
     let all = 0..particles.len();
-    let density = |i: usize| match labels.body[i] {
+    let rest_density = |i: usize| match labels.body[i] {
         Some(body) => scene
             .body
             .get(usize::from(body))
             .map_or(1.0, |body| body.density),
         None => scene.fluid.density,
+    };
+    let at_rest: Vec<AtRest> = (scene.fluid.hydrostatic.iter())
+        .flat_map(|hydrostatic| {
+            all.clone().map(|i| match labels.side[i] {
+                Side::Fluid => hydrostatic.at(padded(particles.position[i]), rest_density(i)),
+                Side::Solid => AtRest {
+                    pressure: 0.0,
+                    density: rest_density(i),
+                },
+            })
+        })
+        .collect();
+    let density = |i: usize| {
+        at_rest
+            .get(i)
+            .map_or_else(|| rest_density(i), |rest| rest.density)
     };
     let normal = |i: usize| {
         let on = particles.body[i].filter(|_| particles.kind[i].is_on_surface());
@@ -178,6 +196,8 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .map(|i| fields.smoothing_length * point::norm(fields.gradient[i]))
             .collect(),
         normal: all.map(|i| padded(normal(i))).collect(),
+        pressure: at_rest.iter().map(|rest| rest.pressure).collect(),
+        density: at_rest.iter().map(|rest| rest.density).collect(),
     }
 }
 

@@ -1,54 +1,77 @@
 //! What the kernel that judges sees of a packing, and masses corrected for it.
 
+use std::borrow::Cow;
+
 use sphpack_packing::{Fields, Kind, MassCorrection, Packed, Problem, correct_masses};
 
 use crate::labels::Sorted;
 
-/// The packing's particles, and, where the kernel that judges reaches beyond its frozen ones, more of their lattice.
+/// What the kernel that judges sees beside a packing's particles: where it reaches beyond the frozen ones, more of their
+/// lattice.
 pub(crate) struct Seen<const D: usize> {
-    positions: Vec<[f64; D]>,
-    volumes: Vec<f64>,
+    beyond: Vec<[f64; D]>,
+    /// The volume of each.
+    volume: f64,
 }
 
 impl<const D: usize> Seen<D> {
-    /// What the problem `judge` sees of a packing that came from `problem`.
+    /// What the problem `judge` sees beside a packing that came from `problem`.
     pub(crate) fn by(judge: &Problem<D>, problem: &Problem<D>, packed: &Packed<D>) -> Self {
-        let mut positions = packed.particles.position.clone();
-        let mut volumes = packed.particles.volume.clone();
-        if judge.support() > problem.frozen_depth() {
-            let there = problem.domain.bounds.grown(problem.frozen_depth());
-            positions.extend(
-                packed
-                    .frozen_lattice
-                    .continued(&problem.domain, judge.frozen_depth())
-                    .into_iter()
-                    .filter(|&p| !there.contains(p)),
-            );
-            volumes.resize(positions.len(), problem.filling().volume_per_site());
+        let volume = problem.filling().volume_per_site();
+        if judge.support() <= problem.frozen_depth() {
+            return Self {
+                beyond: Vec::new(),
+                volume,
+            };
         }
-        Self { positions, volumes }
+        let there = problem.domain.bounds.grown(problem.frozen_depth());
+        let more = packed
+            .frozen_lattice
+            .continued(&problem.domain, judge.frozen_depth());
+        Self {
+            beyond: more.into_iter().filter(|&p| !there.contains(p)).collect(),
+            volume,
+        }
+    }
+
+    fn positions<'a>(&self, own: &'a [[f64; D]]) -> Cow<'a, [[f64; D]]> {
+        if self.beyond.is_empty() {
+            Cow::Borrowed(own)
+        } else {
+            Cow::Owned([own, &self.beyond].concat())
+        }
+    }
+
+    fn volumes<'a>(&self, own: &'a [f64]) -> Cow<'a, [f64]> {
+        if self.beyond.is_empty() {
+            Cow::Borrowed(own)
+        } else {
+            let more = std::iter::repeat_n(self.volume, self.beyond.len());
+            Cow::Owned(own.iter().copied().chain(more).collect())
+        }
     }
 
     /// Γ and ∇Γ by the kernel that judges; zero for frozen particles.
-    pub(crate) fn fields(&self, judge: &Problem<D>, kind: &[Kind]) -> Fields<D> {
-        let is_measured = |i: usize| kind.get(i).is_some_and(|&kind| kind != Kind::Frozen);
+    pub(crate) fn fields(&self, judge: &Problem<D>, packed: &Packed<D>) -> Fields<D> {
+        let particles = &packed.particles;
+        let is_measured = |i: usize| (particles.kind.get(i)).is_some_and(|&k| k != Kind::Frozen);
         let mut fields = Fields::measure(
             &judge.domain,
-            &self.positions,
-            &self.volumes,
+            &self.positions(&particles.position),
+            &self.volumes(&particles.volume),
             is_measured,
             judge.kernel,
             judge.smoothing_length(),
         );
-        fields.gamma.truncate(kind.len());
-        fields.gradient.truncate(kind.len());
+        fields.gamma.truncate(particles.len());
+        fields.gradient.truncate(particles.len());
         fields
     }
 
-    /// Corrects the volumes for the kernel that judges, here and in the packing. Those of a body, of the fluid, and of
+    /// Corrects the packing's volumes for the kernel that judges. Those of a body, of the fluid, and of
     /// what is left out each keep their sum; so do those on a surface that is partly in the fluid.
     pub(crate) fn correct(
-        &mut self,
+        &self,
         judge: &Problem<D>,
         packed: &mut Packed<D>,
         sorted: &Sorted,
@@ -67,18 +90,19 @@ impl<const D: usize> Seen<D> {
                 (particles.kind[i] != Kind::Frozen).then_some(4 * body + part)
             })
             .collect();
-        group.resize(self.positions.len(), None);
+        group.resize(particles.len() + self.beyond.len(), None);
+        let mut volumes = self.volumes(&particles.volume).into_owned();
         let correction = correct_masses(
             &judge.domain,
-            &self.positions,
-            &mut self.volumes,
+            &self.positions(&particles.position),
+            &mut volumes,
             &group,
             judge.kernel,
             judge.smoothing_length(),
             spread,
         );
         let count = particles.len();
-        particles.volume.copy_from_slice(&self.volumes[..count]);
+        particles.volume.copy_from_slice(&volumes[..count]);
         correction
     }
 }

@@ -32,6 +32,10 @@ pub struct Table {
     pub residual: Vec<f64>,
     /// Outward unit normal of the particle surface for boundary and fixed particles, else 0.
     pub normal: Vec<[f64; 3]>,
+    /// Hydrostatic pressure, 0 in solids; empty where the scene does not ask for it.
+    pub pressure: Vec<f64>,
+    /// Density at that pressure, solids' own; empty likewise.
+    pub density: Vec<f64>,
 }
 
 impl Table {
@@ -48,35 +52,43 @@ impl Table {
     /// The particles for which `keep` holds, in the same order.
     #[must_use]
     pub fn filtered(&self, keep: impl Fn(usize) -> bool) -> Self {
-        self.in_order(&(0..self.len()).filter(|&i| keep(i)).collect::<Vec<_>>())
+        let order: Vec<u32> = (0..self.id.len() as u32)
+            .filter(|&i| keep(i as usize))
+            .collect();
+        self.clone().in_order(&order)
     }
 
     /// The particles with a true entry in `keep`, by ascending id.
-    pub(crate) fn kept_by_id(&self, keep: &[bool]) -> Self {
-        let mut order: Vec<usize> = (0..self.len()).filter(|&i| keep[i]).collect();
-        order.sort_unstable_by_key(|&i| self.id[i]);
+    #[must_use]
+    pub(crate) fn kept_by_id(self, keep: &[bool]) -> Self {
+        let mut order: Vec<u32> = (0..self.id.len() as u32)
+            .filter(|&i| keep[i as usize])
+            .collect();
+        order.sort_unstable_by_key(|&i| self.id[i as usize]);
         self.in_order(&order)
     }
 
-    fn in_order(&self, order: &[usize]) -> Self {
-        fn pick<T: Copy>(column: &[T], order: &[usize]) -> Vec<T> {
-            order.iter().map(|&i| column[i]).collect()
+    /// Column by column, so that no more than one is there twice.
+    fn in_order(mut self, order: &[u32]) -> Self {
+        fn pick<T: Copy>(column: &mut Vec<T>, order: &[u32]) {
+            if column.is_empty() {
+                return;
+            }
+            *column = order.iter().map(|&i| column[i as usize]).collect();
         }
-        Self {
-            dimension: self.dimension,
-            stop_reason: self.stop_reason.clone(),
-            bodies: self.bodies.clone(),
-            id: pick(&self.id, order),
-            position: pick(&self.position, order),
-            kind: pick(&self.kind, order),
-            side: pick(&self.side, order),
-            body: pick(&self.body, order),
-            volume: pick(&self.volume, order),
-            mass: pick(&self.mass, order),
-            gamma: pick(&self.gamma, order),
-            residual: pick(&self.residual, order),
-            normal: pick(&self.normal, order),
-        }
+        pick(&mut self.id, order);
+        pick(&mut self.position, order);
+        pick(&mut self.kind, order);
+        pick(&mut self.side, order);
+        pick(&mut self.body, order);
+        pick(&mut self.volume, order);
+        pick(&mut self.mass, order);
+        pick(&mut self.gamma, order);
+        pick(&mut self.residual, order);
+        pick(&mut self.normal, order);
+        pick(&mut self.pressure, order);
+        pick(&mut self.density, order);
+        self
     }
 
     /// Largest |Γ − 1| of the particles inside the domain.

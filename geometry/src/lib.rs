@@ -67,7 +67,7 @@ pub use outline::{
 };
 pub use placed::Placed;
 pub use read::{BodyFormat, FLATTENING_OVER_SIZE, Solid};
-pub use sample::sample_weighted;
+pub use sample::{polygons, sample_weighted};
 pub use sampling::SAGITTA_OVER_SIZE;
 pub use shapes::{Ball, Cuboid, Cylinder, Ellipsoid, Torus};
 pub use similarity::Similarity;

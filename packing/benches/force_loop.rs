@@ -35,7 +35,9 @@ impl<const D: usize> Set<D> {
     /// A shaken lattice in a box of the given side; particles nearer than `frozen` to its faces are frozen.
     fn new(side: f64, frozen: f64) -> Self {
         let bounds = Bounds::new([0.0; D], [side; D]);
-        let mut positions = Lattice::auto(D).fill(bounds, 1.0).sites();
+        let mut positions = Lattice::auto(D, KernelKind::Quintic, 1.2)
+            .fill(bounds, 1.0)
+            .sites();
         for (i, p) in positions.iter_mut().enumerate() {
             for (k, x) in p.iter_mut().enumerate() {
                 *x += 0.1 * ((i * (2 * k + 3)) as f64).sin();

@@ -1,5 +1,7 @@
 //! Lattices that fill a box exactly, and go on beyond it.
 
+mod auto;
+
 use std::fmt;
 use std::str::FromStr;
 
@@ -78,15 +80,6 @@ impl Lattice {
         }
     }
 
-    /// What `lattice = "auto"` means: hexagonal in 2-D, body-centred cubic in 3-D.
-    pub fn auto(dimension: usize) -> Self {
-        if dimension == 2 {
-            Self::Hexagonal
-        } else {
-            Self::Bcc
-        }
-    }
-
     /// Edge lengths of the rectangular cell for a volume of one per site.
     fn cell(self) -> [f64; 3] {
         let root3 = 3.0_f64.sqrt();
@@ -130,14 +123,14 @@ impl Lattice {
     /// Γ of a particle of the perfect, unstretched lattice: Σ V W over the lattice, 1 but for the kernel's own bias.
     pub fn gamma(self, kernel: KernelKind, h_over_spacing: f64) -> f64 {
         if self.dimension() == 2 {
-            self.one_cell::<2>().gamma(kernel, h_over_spacing)
+            self.unit_cell::<2>().gamma(kernel, h_over_spacing)
         } else {
-            self.one_cell::<3>().gamma(kernel, h_over_spacing)
+            self.unit_cell::<3>().gamma(kernel, h_over_spacing)
         }
     }
 
-    /// An unstretched cell of unit volume per site.
-    fn one_cell<const D: usize>(self) -> Filling<D> {
+    /// One unstretched cell, from the origin on, of unit volume per site; `D` is the lattice's dimension.
+    pub fn unit_cell<const D: usize>(self) -> Filling<D> {
         let unit = self.cell();
         Filling {
             lattice: self,
@@ -275,26 +268,29 @@ impl<const D: usize> Filling<D> {
 
     /// The same lattice continued beyond each side that is not periodic, `depth` deep.
     pub fn continued(&self, domain: &Domain<D>, depth: f64) -> Vec<[f64; D]> {
+        let mut outer = self.bounds;
+        for k in (0..D).filter(|&k| !domain.periodic[k]) {
+            outer.min[k] -= depth;
+            outer.max[k] += depth;
+        }
+        let mut sites = Vec::new();
+        self.visit_beyond(outer, |p| sites.push(p));
+        sites
+    }
+
+    /// Visits the same lattice within `outer`, but for what is within its own box.
+    pub fn visit_beyond(&self, outer: Bounds<D>, mut f: impl FnMut([f64; D])) {
         let cell = self.cell();
-        let extra: [i64; D] = std::array::from_fn(|k| {
-            if domain.periodic[k] {
-                0
-            } else {
-                (depth / cell[k]).ceil() as i64
+        let extra = |gap: f64, k: usize| (gap / cell[k]).ceil().max(0.0) as i64;
+        let from = std::array::from_fn(|k| -extra(self.bounds.min[k] - outer.min[k], k));
+        let to = std::array::from_fn(|k| {
+            self.cells[k] as i64 + extra(outer.max[k] - self.bounds.max[k], k)
+        });
+        self.visit(from, to, |p| {
+            if outer.contains(p) && !self.bounds.contains(p) {
+                f(p);
             }
         });
-        let outer = self.bounds.grown(depth);
-        let mut sites = Vec::new();
-        self.visit(
-            extra.map(|e| -e),
-            std::array::from_fn(|k| self.cells[k] as i64 + extra[k]),
-            |p| {
-                if outer.contains(p) && !self.bounds.contains(p) {
-                    sites.push(p);
-                }
-            },
-        );
-        sites
     }
 
     fn visit(&self, from: [i64; D], to: [i64; D], mut f: impl FnMut([f64; D])) {

@@ -43,7 +43,9 @@ pub mod problem;
 pub mod quality;
 pub mod repulsion;
 pub mod seeding;
+mod slabs;
 mod standard;
+mod triangulated;
 mod watch;
 
 #[cfg(test)]
@@ -66,3 +68,4 @@ pub use ppa::Ppa;
 pub use problem::{Body, Estimate, FrozenLayout, PackingError, Problem};
 pub use quality::{DensityQuality, Fields, Quality, ResidualQuality, SurfaceQuality};
 pub use standard::Standard;
+pub use triangulated::Triangulated;

@@ -7,6 +7,7 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
 use crate::lattice::{Filling, Lattice};
+use crate::slabs;
 
 /// How deep inside the true surface the boundary particles sit, unless a body says otherwise: ∆s/2 (001 eq. 11).
 pub const DEFAULT_INSET_OVER_SPACING: f64 = 0.5;
@@ -165,7 +166,7 @@ pub struct Estimate {
     pub neighbors: f64,
     /// Peak memory of the packing, bytes, to about a third.
     pub memory_bytes: f64,
-    /// Core-seconds of one evaluation of density and force, to a factor of about two.
+    /// Core-seconds of one evaluation of density and force of what moves, to a factor of about two.
     pub seconds_per_evaluation: f64,
 }
 
@@ -213,7 +214,8 @@ impl<const D: usize> Problem<D> {
 
     /// The lattice that the packing starts from.
     pub fn chosen_lattice(&self) -> Lattice {
-        self.lattice.unwrap_or_else(|| Lattice::auto(D))
+        self.lattice
+            .unwrap_or_else(|| Lattice::auto(D, self.kernel, self.h_over_spacing))
     }
 
     /// Γ of that lattice, undisturbed, where it fills the box. The problem must have passed [`Problem::check`].
@@ -314,11 +316,12 @@ impl<const D: usize> Problem<D> {
         Ok(())
     }
 
-    /// What the packing will need, from volumes alone; allocates nothing.
+    /// What the packing will need, from volumes alone, where particles within `moves` (scene units) of a surface settle
+    /// and the others stay where they are; allocates nothing.
     ///
     /// # Errors
     /// Those of [`Problem::check`].
-    pub fn estimate(&self) -> Result<Estimate, PackingError> {
+    pub fn estimate(&self, moves: f64) -> Result<Estimate, PackingError> {
         self.check()?;
         let filling = self.filling();
         let particles = filling.count() as f64;
@@ -326,18 +329,36 @@ impl<const D: usize> Problem<D> {
         let unit_ball = [std::f64::consts::PI, 4.0 / 3.0 * std::f64::consts::PI][D - 2];
         let per_site = filling.volume_per_site();
         let neighbors = unit_ball * self.support().powi(D as i32) / per_site;
+        let area: f64 = self.bodies.iter().map(|body| body.surface.measure()).sum();
+        let moving = if self.bodies.is_empty() {
+            0.0
+        } else {
+            (area * 2.0 * moves / per_site).min(particles)
+        };
+        let around = area * 4.0 * self.frozen_depth() / per_site;
+        let seen = (moving + around).min(particles) + frozen;
         // Blocks of eight list every candidate within the reach of any of the eight: about twice the neighbours.
         let candidates = 2.2 * unit_ball * self.frozen_depth().powi(D as i32) / per_site;
-        let bytes = particles * (420.0 + 4.0 * candidates / 8.0) + frozen * 220.0;
+        let listed = 4.0 * candidates / 8.0;
+        let settling = moving * (HISTORY_BYTES + listed) + seen * SEEN_BYTES;
+        let measuring = listed * (particles + frozen).min(slabs::MOST as f64);
+        let kept = (particles + frozen) * PARTICLE_BYTES;
         Ok(Estimate {
             particles,
             frozen,
             neighbors,
-            memory_bytes: bytes + 3e7,
-            seconds_per_evaluation: particles * neighbors / 3.5e8,
+            memory_bytes: kept + settling.max(measuring + particles * MEASURED_BYTES) + 3e7,
+            seconds_per_evaluation: moving * neighbors / 3.5e8,
         })
     }
 }
+
+/// Bytes of a particle as it is kept; of one that is seen, in list and slots; of one that moves, in the minimiser's
+/// history; of one when all are measured and written.
+const PARTICLE_BYTES: f64 = 60.0;
+const SEEN_BYTES: f64 = 160.0;
+const HISTORY_BYTES: f64 = 500.0;
+const MEASURED_BYTES: f64 = 150.0;
 
 /// Skin of the neighbour lists in units of ∆s: how far two particles may approach before a list must be built anew.
 pub(crate) const SKIN_OVER_SPACING: f64 = 0.3;

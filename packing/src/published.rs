@@ -7,7 +7,7 @@ use sphpack_neighbors::Domain;
 
 use crate::{
     Agitated, Clipped, Coupled, Hybrid, Kind, Observer, Packed, PackingError, Ppa, Problem,
-    Progress, Silent, Standard, StopReason,
+    Progress, Silent, Standard, StopReason, Triangulated,
 };
 
 type Pack<const D: usize> = fn(&Problem<D>, &mut dyn Observer) -> Result<Packed<D>, PackingError>;
@@ -60,6 +60,7 @@ fn plane_methods() -> Vec<(&'static str, Pack<2>)> {
         }
         .pack(p, o)
     }));
+    all.push(("triangulated", |p, o| Triangulated.pack(p, o)));
     all
 }
 
@@ -81,6 +82,8 @@ fn check<const D: usize>(name: &str, problem: &Problem<D>, packed: &Packed<D>) {
         "coupled" => 0.2,
         // Not at its end in space: agitators are still half a spacing off.
         "agitated" if D == 3 => 0.5,
+        // Triangles do not move.
+        "triangulated" => 0.5,
         _ => 0.1,
     };
     let linf = quality.density.linf;
@@ -198,5 +201,37 @@ fn a_tank_keeps_its_fluid() {
     assert!((volume / 2.5 - 1.0).abs() < 1e-12);
     for &i in &fluid {
         assert!(problem.bodies[0].surface.inside(particles.position[i]));
+    }
+}
+
+/// Triangles fill a body, with a hole too, to within the chords of its outline, one for each ∆s² in the mean.
+#[test]
+fn triangles_carry_the_area_of_their_body() {
+    let square = |half: f64| vec![[-half, -half], [half, -half], [half, half], [-half, half]];
+    let ring = Outline::new(vec![square(0.8), square(0.33)]).expect("an outline");
+    let disc = Ball::new([0.0; 2], 0.7).expect("a disc");
+    let box_of = || Problem::new(Domain::new([-1.2; 2], [1.2; 2]), 0.08);
+    for (problem, exact) in [
+        (box_of().body("ring", ring), true),
+        (box_of().body("disc", disc), false),
+    ] {
+        let packed = Triangulated.pack(&problem, &mut Silent).expect("triangles");
+        let body = problem.bodies[0].surface.as_ref();
+        let mine: Vec<usize> = (0..packed.particles.len())
+            .filter(|&i| packed.particles.body[i] == Some(0))
+            .collect();
+        let area: f64 = mine.iter().map(|&i| packed.particles.volume[i]).sum();
+        let off = area / body.volume() - 1.0;
+        assert!(off.abs() < if exact { 1e-9 } else { 0.01 }, "{off}");
+        let wanted = body.volume() / 0.08_f64.powi(2);
+        assert!(
+            (mine.len() as f64 / wanted - 1.0).abs() < 0.15,
+            "{} {wanted}",
+            mine.len()
+        );
+        assert!(
+            mine.iter()
+                .all(|&i| body.inside(packed.particles.position[i]))
+        );
     }
 }

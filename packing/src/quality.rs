@@ -9,6 +9,7 @@ use crate::forces::{Forces, blocked_sum, largest};
 use crate::packed::{Packed, ParticleSurface};
 use crate::particles::Kind;
 use crate::repulsion::Repulsion;
+use crate::slabs::{self, Slab};
 
 /// Γ and ∇Γ at every particle.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,7 +89,7 @@ pub struct Quality {
 
 impl<const D: usize> Fields<D> {
     /// Γ and ∇Γ of the particles for which `is_measured` holds; zero for the others, which are sources only.
-    /// Volumes: one per particle. O(n log n), parallel.
+    /// Volumes: one per particle. O(n log n), parallel. Neighbours are listed for some two million particles at a time.
     pub fn measure(
         domain: &Domain<D>,
         positions: &[[f64; D]],
@@ -97,14 +98,40 @@ impl<const D: usize> Fields<D> {
         kernel: KernelKind,
         smoothing_length: f64,
     ) -> Self {
-        let mut forces = Forces::new(domain, kernel, smoothing_length, 0.0, Repulsion::none());
-        forces.evaluate_plain(positions, volumes, is_measured);
-        Self {
+        let fields = Self {
             kernel,
             smoothing_length,
-            gamma: (0..positions.len()).map(|i| forces.gamma(i)).collect(),
-            gradient: (0..positions.len()).map(|i| forces.gradient(i)).collect(),
+            gamma: vec![0.0; positions.len()],
+            gradient: vec![[0.0; D]; positions.len()],
+        };
+        fields.measured(domain, positions, volumes, is_measured, slabs::MOST)
+    }
+
+    /// The fields filled in, `most` particles at a time.
+    fn measured(
+        mut self,
+        domain: &Domain<D>,
+        positions: &[[f64; D]],
+        volumes: &[f64],
+        is_measured: impl Fn(usize) -> bool + Sync,
+        most: usize,
+    ) -> Self {
+        let (kernel, h) = (self.kernel, self.smoothing_length);
+        let reach = kernel.support_over_h() * h;
+        for Slab { order, is_inside } in slabs::slabs(domain, positions, reach, most) {
+            let positions: Vec<[f64; D]> = order.iter().map(|&i| positions[i]).collect();
+            let volumes: Vec<f64> = order.iter().map(|&i| volumes[i]).collect();
+            let mut forces = Forces::new(domain, kernel, h, 0.0, Repulsion::none());
+            let is_target = |k: usize| is_inside[k] && is_measured(order[k]);
+            forces.evaluate_plain(&positions, &volumes, is_target);
+            for (k, &i) in order.iter().enumerate() {
+                if is_target(k) {
+                    self.gamma[i] = forces.gamma(k);
+                    self.gradient[i] = forces.gradient(k);
+                }
+            }
         }
+        self
     }
 
     /// h |∇Γ_i|, dimensionless.
@@ -193,7 +220,28 @@ impl Spacing {
 }
 
 /// Smallest distance from an asked point to any other; infinite where there is no other. Periodic images are not seen.
+/// `likely` is more than it can sensibly be.
 fn closest_pair<const D: usize>(
+    domain: &Domain<D>,
+    positions: &[[f64; D]],
+    is_asked: impl Fn(usize) -> bool + Sync,
+    likely: f64,
+    most: usize,
+) -> f64 {
+    let mut closest = f64::INFINITY;
+    for Slab { order, is_inside } in slabs::slabs(domain, positions, likely, most) {
+        let near: Vec<[f64; D]> = order.iter().map(|&i| positions[i]).collect();
+        closest = closest.min(closest_of(&near, |k| is_inside[k] && is_asked(order[k])));
+    }
+    if closest <= likely || positions.len() <= most {
+        closest
+    } else {
+        closest_of(positions, is_asked)
+    }
+}
+
+/// The same, all at once.
+fn closest_of<const D: usize>(
     positions: &[[f64; D]],
     is_asked: impl Fn(usize) -> bool + Sync,
 ) -> f64 {
@@ -252,9 +300,13 @@ impl<const D: usize> Packed<D> {
             surface: (self.surfaces.iter().zip(&self.bodies).zip(0_u16..))
                 .map(|((surface, name), body)| self.surface_quality(surface, name, body))
                 .collect(),
-            closest_pair_over_spacing: closest_pair(&particles.position, |i| {
-                particles.kind[i] != Kind::Frozen
-            }) / self.spacing,
+            closest_pair_over_spacing: closest_pair(
+                &self.domain,
+                &particles.position,
+                |i| particles.kind[i] != Kind::Frozen,
+                2.0 * self.spacing,
+                slabs::MOST,
+            ) / self.spacing,
         }
     }
 
@@ -299,6 +351,55 @@ impl<const D: usize> Packed<D> {
             max_distance_over_spacing: farthest / self.spacing,
             spacing_mean_over_spacing: spacing.mean / self.spacing,
             spacing_cv: spacing.cv,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Lattice;
+    use sphpack_neighbors::Bounds;
+
+    /// A shaken lattice, on a torus or not: slabs see what the whole sees.
+    #[test]
+    fn slabs_change_nothing() {
+        let bounds = Bounds::new([0.0; 3], [14.0, 9.0, 9.0]);
+        let mut positions = Lattice::Bcc.fill(bounds, 1.0).sites();
+        for (i, p) in positions.iter_mut().enumerate() {
+            p[0] = (p[0] + 0.2 * (i as f64).sin()).clamp(0.0, 14.0);
+            p[1] += 0.1 * (3.0 * i as f64).sin();
+        }
+        let volumes: Vec<f64> = (0..positions.len())
+            .map(|i| 1.0 + 0.1 * (i as f64).cos())
+            .collect();
+        for periodic in [true, false] {
+            let domain = Domain {
+                bounds,
+                periodic: [periodic; 3],
+            };
+            let of = |most: usize| {
+                let blank = Fields {
+                    kernel: KernelKind::Quintic,
+                    smoothing_length: 1.2,
+                    gamma: vec![0.0; positions.len()],
+                    gradient: vec![[0.0; 3]; positions.len()],
+                };
+                let is_measured = |i: usize| i % 7 != 0;
+                let fields = blank.measured(&domain, &positions, &volumes, is_measured, most);
+                (
+                    fields,
+                    closest_pair(&domain, &positions, is_measured, 2.0, most),
+                )
+            };
+            let (whole, pair) = of(usize::MAX);
+            let (parts, same_pair) = of(300);
+            assert_eq!(pair, same_pair);
+            for i in 0..positions.len() {
+                assert!((whole.gamma[i] - parts.gamma[i]).abs() < 1e-13);
+                assert!(point::distance(whole.gradient[i], parts.gradient[i]) < 1e-13);
+                assert_eq!(parts.gamma[i] == 0.0, i % 7 == 0);
+            }
         }
     }
 }

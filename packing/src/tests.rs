@@ -303,7 +303,10 @@ fn senseless_problems_are_refused() {
             .expect_err("refused");
         assert!(is_expected(&error), "{error}");
         assert_eq!(
-            problem.estimate().expect_err("refused").to_string(),
+            problem
+                .estimate(f64::INFINITY)
+                .expect_err("refused")
+                .to_string(),
             error.to_string()
         );
     };

@@ -9,6 +9,7 @@ use sphpack::{Options, Report, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_packing::Silent;
 
+use crate::chart::{Axis, Chart, Scale, Series};
 use crate::figures;
 use crate::reproduce::{Settings, load};
 use crate::root;
@@ -36,6 +37,7 @@ const PATIENCE_IN_SPACE: usize = 2000;
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let mut table = HEAD.to_owned();
     print!("{HEAD}");
+    let mut clouds: Vec<Series> = Vec::new();
     for (name, spacing, dimension, quick) in SCENES {
         if !settings.wants(name, quick) {
             continue;
@@ -59,12 +61,19 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             let start = Instant::now();
             let outcome = pack(&scene, &Options::default(), &mut Silent)
                 .map_err(|error| error.to_string())?;
-            let line = line(
-                name,
-                info.name,
-                &outcome.report,
-                start.elapsed().as_secs_f64(),
-            );
+            let seconds = start.elapsed().as_secs_f64();
+            let line = line(name, info.name, &outcome.report, seconds);
+            if info.method != Method::Clipped {
+                let place = [seconds, 100.0 * outcome.report.density.linf];
+                match clouds.iter_mut().find(|cloud| cloud.name == info.name) {
+                    Some(cloud) => cloud.points.push(place),
+                    None => clouds.push(Series {
+                        name: info.name.to_owned(),
+                        points: vec![place],
+                        joined: false,
+                    }),
+                }
+            }
             print!("{line}");
             table.push_str(&line);
         }
@@ -77,7 +86,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             "# Every method on every scene\n\n\
              Each method with its defaults, its own kernel and h/∆s among them; all judged by the quintic kernel at\n\
              h/∆s = 1.2{}. In space methods stop after 2,000 iterations. Regenerate with `cargo xtask compare --write`. Times are wall-clock seconds and depend on\n\
-             the machine.\n\n{table}\n\
+             the machine.\n\n\
+             ![Error of the density against time, every method on every scene](speed-accuracy.svg)\n\n{table}\n\
              ## Paper 001's comparison\n\n\
              The paper does not say by which h/∆s it judges, nor how deep its bodies are filled; here by the quintic\n\
              kernel at h/∆s = 1.0, over all particles and over those outside or within ∆s of the surface. Our standard\n\
@@ -94,8 +104,29 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             }
         );
         fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        let path = root().join("docs/speed-accuracy.svg");
+        fs::write(&path, chart(clouds).svg())
+            .map_err(|error| format!("{}: {error}", path.display()))?;
     }
     Ok(())
+}
+
+/// Speed against accuracy: the better the farther down to the left.
+fn chart(series: Vec<Series>) -> Chart {
+    Chart {
+        title: "Every method on every scene",
+        axes: [
+            Axis {
+                title: "seconds",
+                scale: Scale::Logarithmic,
+            },
+            Axis {
+                title: "greatest error of the density, %",
+                scale: Scale::Logarithmic,
+            },
+        ],
+        series,
+    }
 }
 
 fn line(scene: &str, method: &str, report: &Report, seconds: f64) -> String {

@@ -1,17 +1,21 @@
-//! The project's own tasks: `cargo xtask ci | tidy | fuzz | reproduce-paper | balanced | compare | round-trip`.
+//! The project's own tasks: `cargo xtask ci | tidy | fuzz | reproduce-paper | balanced | compare | lattices | speed |
+//! round-trip`.
 
 mod balanced;
 mod balanced_rows;
+mod chart;
 mod ci;
 mod compare;
 mod dial;
 mod figures;
 mod fuzz;
+mod lattices;
 #[path = "../../geometry/src/read/mangle.rs"]
 mod mangle;
 mod reproduce;
 mod round_trip;
 mod rows;
+mod speed;
 mod tidy;
 
 use std::path::{Path, PathBuf};
@@ -33,6 +37,11 @@ cargo xtask TASK
                               the balanced method against its bars; --write also writes docs/balanced.md
   compare [--quick] [--only SCENE] [--write]
                               every method on every scene; --write also writes docs/methods.md
+  lattices [--quick] [--write]
+                              stability of every lattice, and packings from it; --write also writes docs/lattices.md
+  speed [--quick] [--only SCENE] [--data DIR] [--write]
+                              the whole job, how it grows, the pair loop against the machine; --write also writes
+                              docs/speed.md
   round-trip [--python PROGRAM | --install]
                               particle files of every format, read by numpy, pyvista and meshio;
                               --install puts these into target/round-trip/venv first
@@ -50,6 +59,8 @@ fn main() -> ExitCode {
         }
         Some("balanced") => reproduce::Settings::parse(rest).and_then(|s| balanced::run(&s)),
         Some("compare") => reproduce::Settings::parse(rest).and_then(|s| compare::run(&s)),
+        Some("lattices") => reproduce::Settings::parse(rest).and_then(|s| lattices::run(&s)),
+        Some("speed") => reproduce::Settings::parse(rest).and_then(|s| speed::run(&s)),
         Some("round-trip") => round_trip::Settings::parse(rest).and_then(|s| round_trip::run(&s)),
         Some("help" | "--help" | "-h") => {
             print!("{USAGE}");

@@ -9,7 +9,7 @@ use super::arguments::What;
 use super::say;
 use crate::Error;
 use crate::error::DONE;
-use crate::scene::{METHODS, SHAPES};
+use crate::scene::{METHODS, Method, SHAPES};
 
 pub(super) fn run(what: What) -> Result<u8, Error> {
     let mut text = String::new();
@@ -40,12 +40,13 @@ pub(super) fn run(what: What) -> Result<u8, Error> {
             }
         }
         What::Lattices => {
+            let (kernel, h_over_spacing) = Method::default().kernel();
             let _ = writeln!(
                 text,
-                "{:12} {} in 2-D, {} in 3-D (the default)",
+                "{:12} by kernel and h/∆s; {} in 2-D, {} in 3-D with the default ones (the default)",
                 "auto",
-                Lattice::auto(2),
-                Lattice::auto(3)
+                Lattice::auto(2, kernel, h_over_spacing),
+                Lattice::auto(3, kernel, h_over_spacing)
             );
             for lattice in Lattice::ALL {
                 let _ = writeln!(text, "{:12} {}-D", lattice.name(), lattice.dimension());

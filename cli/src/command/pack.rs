@@ -18,6 +18,7 @@ use crate::plan::{dimension, plan};
 use crate::report::peak_memory_bytes;
 use crate::run::{Options, Outcome, run as pack};
 use crate::scene::{Finish, METHODS, Method, PackingSpec, Scene, advice};
+use crate::surroundings::surrounded;
 
 /// The margin around a body without a scene, in ∆s.
 const MARGIN_OVER_SPACING: f64 = 8.0;
@@ -173,7 +174,7 @@ fn dry_run(scene: &Scene, is_quiet: bool) -> Result<u8, Error> {
         estimate.seconds_per_evaluation * evaluations / rayon::current_num_threads() as f64;
     let read = summary::read(&plan.read);
     say(&format!(
-        "{read}  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {:.2} GiB of {:.1} GiB that are free\n  time       about {} for {evaluations} evaluations of all particles on {} threads, to a factor of two\nnothing was written (--dry-run)\n",
+        "{read}  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {:.2} GiB of {:.1} GiB that are free\n  time       about {} for {evaluations} evaluations of what moves on {} threads, to a factor of two\nnothing was written (--dry-run)\n",
         crate::picture::grouped(estimate.particles as usize),
         plan.dimension,
         crate::picture::grouped(estimate.frozen as usize),
@@ -259,11 +260,13 @@ impl Files {
         } else {
             Cow::Owned(table.filtered(is_asked_for))
         };
-        let frozen = rows
-            .kind
-            .iter()
-            .filter(|&&kind| kind == Kind::Frozen)
-            .count();
+        let rows = match &scene.output.surroundings {
+            Some(box_around) => {
+                Cow::Owned(surrounded(rows.into_owned(), outcome, scene, box_around))
+            }
+            None => rows,
+        };
+        let frozen = (rows.kind.iter().filter(|&&kind| kind == Kind::Frozen)).count();
         for (path, format) in &self.particles {
             files.write(path, |to| format.write(&rows, to))?;
             written.push(format!(

@@ -141,7 +141,7 @@ pub(super) fn codes(table: &Table) -> [Array<'_>; 3] {
     ]
 }
 
-/// `volume` to `nz`; `nz` only in 3-D.
+/// `volume` to `nz`, `nz` only in 3-D; `pressure` and `density` where the table has them.
 pub(super) fn measures(table: &Table) -> Vec<Array<'_>> {
     let mut all = vec![
         Array::float("volume", |i| table.volume[i]),
@@ -153,6 +153,10 @@ pub(super) fn measures(table: &Table) -> Vec<Array<'_>> {
     ];
     if table.dimension == 3 {
         all.push(Array::float("nz", |i| table.normal[i][2]));
+    }
+    if !table.pressure.is_empty() {
+        all.push(Array::float("pressure", |i| table.pressure[i]));
+        all.push(Array::float("density", |i| table.density[i]));
     }
     all
 }

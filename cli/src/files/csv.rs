@@ -16,10 +16,16 @@ use crate::table::Table;
 pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     super::sound::check(table)?;
     let space = table.dimension == 3;
+    let has_pressure = !table.pressure.is_empty();
+    let more = if has_pressure {
+        ",pressure,density"
+    } else {
+        ""
+    };
     let (z, nz) = if space { (",z", ",nz") } else { ("", "") };
     writeln!(
         to,
-        "id,x,y{z},kind,side,body,volume,mass,gamma,residual,nx,ny{nz}"
+        "id,x,y{z},kind,side,body,volume,mass,gamma,residual,nx,ny{nz}{more}"
     )?;
     let names: Vec<String> = table.bodies.iter().map(|name| quoted(name)).collect();
     for i in 0..table.len() {
@@ -44,6 +50,14 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
         )?;
         if space {
             write!(to, ",{nz}")?;
+        }
+        if has_pressure {
+            write!(
+                to,
+                ",{},{}",
+                Short(table.pressure[i]),
+                Short(table.density[i])
+            )?;
         }
         writeln!(to)?;
     }

@@ -25,6 +25,8 @@ pub(super) fn check(table: &Table) -> io::Result<()> {
             ("nx", nx),
             ("ny", ny),
             ("nz", nz),
+            ("pressure", table.pressure.get(i).copied().unwrap_or(0.0)),
+            ("density", table.density.get(i).copied().unwrap_or(0.0)),
         ];
         if let Some((name, number)) = row.iter().find(|(_, number)| !number.is_finite()) {
             return refuse(format!(

@@ -78,6 +78,10 @@ fn agree(columns: &Columns, table: &Table) -> Result<(), TestCaseError> {
         expected.push(("z", axis(&table.position, 2)));
         expected.push(("nz", axis(&table.normal, 2)));
     }
+    if !table.pressure.is_empty() {
+        expected.push(("pressure", table.pressure.clone()));
+        expected.push(("density", table.density.clone()));
+    }
     for (name, values) in expected {
         prop_assert_eq!(bits(&columns.numbers[name]), bits(&values), "{}", name);
     }
@@ -163,6 +167,8 @@ fn one_particle(dimension: usize) -> Table {
         gamma: vec![1.0],
         residual: vec![0.0],
         normal: vec![flat([0.6, -0.0, 0.8])],
+        pressure: vec![-1e-9],
+        density: vec![1e3],
     }
 }
 

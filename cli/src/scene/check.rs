@@ -4,7 +4,7 @@ use sphpack_packing::Kind;
 
 use super::check_body::check_body;
 use super::nearest::advice;
-use super::{Finish, Method, Scene};
+use super::{Finish, Method, Role, Scene, Surroundings};
 
 /// A step on the way to a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,6 +107,7 @@ impl Scene {
             "fluid.density",
             self.fluid.density,
         )?;
+        self.check_hydrostatic()?;
         self.check_packing()?;
         if let Some(value) = self.quality.h_over_spacing {
             ratio(
@@ -123,6 +124,107 @@ impl Scene {
                     format!(
                         "no kind of particles is called \"{name}\"; {}",
                         advice(name, &known)
+                    ),
+                );
+            }
+        }
+        self.check_surroundings()
+    }
+
+    fn check_hydrostatic(&self) -> Checked {
+        let Some(hydrostatic) = &self.fluid.hydrostatic else {
+            return Ok(());
+        };
+        let at = |name| {
+            [
+                Key::Name("fluid"),
+                Key::Name("hydrostatic"),
+                Key::Name(name),
+            ]
+        };
+        let gravity = &hydrostatic.gravity;
+        let dimension = self.domain.min.as_ref().map_or(gravity.len(), Vec::len);
+        vector(
+            &at("gravity"),
+            "fluid.hydrostatic.gravity",
+            gravity,
+            dimension,
+        )?;
+        if gravity.iter().all(|&g| g == 0.0) {
+            return fault(
+                &at("gravity"),
+                "fluid.hydrostatic.gravity is zero; give it a direction, such as [0.0, -9.81], or leave hydrostatic out",
+            );
+        }
+        finite(
+            &at("level"),
+            "fluid.hydrostatic.level",
+            &[hydrostatic.level],
+        )?;
+        positive(
+            &at("sound_speed"),
+            "fluid.hydrostatic.sound_speed",
+            hydrostatic.sound_speed,
+        )?;
+        positive(
+            &at("exponent"),
+            "fluid.hydrostatic.exponent",
+            hydrostatic.exponent,
+        )
+    }
+
+    fn check_surroundings(&self) -> Checked {
+        let Some(Surroundings { min, max }) = &self.output.surroundings else {
+            return Ok(());
+        };
+        let at = |name| {
+            [
+                Key::Name("output"),
+                Key::Name("surroundings"),
+                Key::Name(name),
+            ]
+        };
+        if !self.fluid.fill || self.body.iter().any(|body| body.role == Role::Container) {
+            return fault(
+                &[Key::Name("output"), Key::Name("surroundings")],
+                "output.surroundings is fluid around the domain, where this scene has none; leave it out",
+            );
+        }
+        let dimension = self.domain.min.as_ref().map_or(min.len(), Vec::len);
+        vector(&at("min"), "output.surroundings.min", min, dimension)?;
+        vector(&at("max"), "output.surroundings.max", max, dimension)?;
+        match (&self.domain.min, &self.domain.max) {
+            (Some(low), Some(high)) => self.check_around([min, max], [low, high]),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether the surroundings are around the domain: no nearer, and along periodic axes the same.
+    pub(crate) fn check_around(
+        &self,
+        [min, max]: [&[f64]; 2],
+        [low, high]: [&[f64]; 2],
+    ) -> Checked {
+        let periodic = self.domain.periodic.as_deref().unwrap_or(&[]);
+        let at = [Key::Name("output"), Key::Name("surroundings")];
+        for axis in 0..low.len().min(min.len()) {
+            let box_of = |from: f64, to: f64| format!("from {from} to {to}");
+            let domain = box_of(low[axis], high[axis]);
+            let around = box_of(min[axis], max[axis]);
+            let is_periodic = periodic.get(axis).copied().unwrap_or(false);
+            if is_periodic && (min[axis] != low[axis] || max[axis] != high[axis]) {
+                return fault(
+                    &at,
+                    format!(
+                        "axis {axis} is periodic: there output.surroundings, {around}, must be the domain, {domain}"
+                    ),
+                );
+            }
+            if min[axis] > low[axis] || max[axis] < high[axis] {
+                return fault(
+                    &at,
+                    format!(
+                        "output.surroundings goes {around} along axis {axis}, the domain {domain}; it must be around the domain"
                     ),
                 );
             }

@@ -26,6 +26,8 @@ pub enum Method {
     Ppa,
     /// The lattice clipped by the bodies (000 §3).
     Clipped,
+    /// Bodies cut into triangles (000 §3).
+    Triangulated,
 }
 
 /// A line of the table of methods.
@@ -59,7 +61,7 @@ const USUAL: MethodInfo = MethodInfo {
 };
 
 /// Every method that has a name.
-pub const METHODS: [MethodInfo; 9] = [
+pub const METHODS: [MethodInfo; 10] = [
     MethodInfo {
         minimises: true,
         summary: "surface first, counts balanced, then a minimiser (the default)",
@@ -115,6 +117,13 @@ pub const METHODS: [MethodInfo; 9] = [
         method: Method::Clipped,
         name: "clipped",
         summary: "the lattice as it is, clipped by the bodies: what to compare with",
+        ..USUAL
+    },
+    MethodInfo {
+        method: Method::Triangulated,
+        name: "triangulated",
+        dimensions: &[2],
+        summary: "bodies cut into triangles that carry their area, not moved; 2-D: what to compare with",
         ..USUAL
     },
 ];

@@ -141,6 +141,24 @@ pub struct FluidSpec {
     pub density: f64,
     /// Whether fluid particles are written.
     pub fill: bool,
+    /// Gravity and state equation, for columns of pressure and density of the fluid at rest (002 §III).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hydrostatic: Option<Hydrostatic>,
+}
+
+/// Fluid at rest under gravity.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Hydrostatic {
+    /// Acceleration, scene units over time squared, one entry per axis.
+    pub gravity: Vec<f64>,
+    /// Height of the free surface above the origin, against gravity, scene units.
+    pub level: f64,
+    /// Speed of sound c of the state equation p = ρ₀c²/γ ((ρ/ρ₀)^γ − 1), in the units of gravity.
+    pub sound_speed: f64,
+    /// Its exponent γ.
+    #[serde(default = "seven")]
+    pub exponent: f64,
 }
 
 impl Default for FluidSpec {
@@ -148,6 +166,7 @@ impl Default for FluidSpec {
         Self {
             density: 1.0,
             fill: true,
+            hydrostatic: None,
         }
     }
 }
@@ -319,12 +338,26 @@ pub struct QualitySpec {
 pub struct OutputSpec {
     /// Names of the kinds of particles in the files.
     pub include: Vec<String>,
+    /// A larger box that the files fill around the domain, on the lattice that the frozen particles begin (001 fig. 3).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surroundings: Option<Surroundings>,
+}
+
+/// A box around the domain.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Surroundings {
+    /// Lower corner, scene units.
+    pub min: Vec<f64>,
+    /// Upper corner, scene units.
+    pub max: Vec<f64>,
 }
 
 impl Default for OutputSpec {
     fn default() -> Self {
         Self {
             include: Kind::ALL.map(|kind| kind.name().to_owned()).to_vec(),
+            surroundings: None,
         }
     }
 }
@@ -392,4 +425,9 @@ impl Scene {
 
 fn one() -> f64 {
     1.0
+}
+
+/// Of water.
+fn seven() -> f64 {
+    7.0
 }

@@ -36,6 +36,8 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 [fluid]                          # what is between the bodies
 # density = 1.0
 # fill = true                    # false: write the bodies only
+# hydrostatic = { gravity = [0.0, -9.81], level = 1.0, sound_speed = 45.0, exponent = 7.0 }
+                                 # columns of pressure and density of the fluid at rest below that level, masses too
 
 [packing]
 # method = "balanced"            # `sphpack list methods`
@@ -60,4 +62,6 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 
 [output]
 # include = ["free", "boundary", "fixed", "frozen"]   # kinds of particles in the files
+# surroundings = { min = [-10.0, -5.0], max = [20.0, 5.0] }
+                                 # around the domain the files go on to there, on its lattice
 "#;

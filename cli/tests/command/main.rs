@@ -8,10 +8,12 @@ mod checking;
 mod dirty_formats;
 mod dirty_meshes;
 mod good_runs;
+mod hydrostatics;
 mod interrupts;
 mod measuring;
 mod particle_files;
 mod precedence;
+mod surroundings;
 
 use std::fs;
 use std::path::Path;

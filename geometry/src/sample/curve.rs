@@ -21,10 +21,10 @@ pub(crate) struct Ring<const D: usize> {
 
 /// A piece of a ring between two corners, or all of a smooth ring: where it starts and how long it is.
 #[derive(Debug, Clone, Copy)]
-struct Run {
+pub(super) struct Run {
     ring: usize,
-    start: f64,
-    length: f64,
+    pub(super) start: f64,
+    pub(super) length: f64,
     from_corner: bool,
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn along<const D: usize, S: Surface<D> + ?Sized>(
 }
 
 /// The runs of a ring, its corners at least `least` apart along it.
-fn runs_of<const D: usize>(
+pub(super) fn runs_of<const D: usize>(
     number: usize,
     ring: &Ring<D>,
     line: &Polyline<D>,

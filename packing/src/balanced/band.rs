@@ -40,7 +40,7 @@ pub(super) struct Part<const D: usize> {
 
 impl Band {
     /// The width to begin with, scene units; infinite for everything.
-    pub(super) fn first_width<const D: usize>(self, problem: &Problem<D>, finish: Finish) -> f64 {
+    pub fn first_width<const D: usize>(self, problem: &Problem<D>, finish: Finish) -> f64 {
         match (self, finish) {
             (Self::Auto, Finish::Even) => FIRST_WIDTH * problem.support(),
             _ => f64::INFINITY,

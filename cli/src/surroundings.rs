@@ -1,0 +1,63 @@
+//! The lattice around a packed domain, out to a larger box (001 fig. 3).
+
+use sphpack_neighbors::Bounds;
+use sphpack_packing::{Kind, Packed};
+use sphpack_separation::Side;
+
+use crate::run::{Outcome, Packing, padded};
+use crate::scene::{Scene, Surroundings};
+use crate::table::Table;
+
+/// The particles of `rows` and, in place of the frozen ones, their lattice on to the sides of the larger box: fluid that
+/// never moved, with Γ of the perfect lattice.
+pub(crate) fn surrounded(
+    mut rows: Table,
+    outcome: &Outcome,
+    scene: &Scene,
+    around: &Surroundings,
+) -> Table {
+    if rows.kind.contains(&Kind::Frozen) {
+        rows = rows.filtered(|i| rows.kind[i] != Kind::Frozen);
+    }
+    match &outcome.packing {
+        Packing::Plane(solution) => add(&mut rows, &solution.packed, scene, around),
+        Packing::Space(solution) => add(&mut rows, &solution.packed, scene, around),
+    }
+    rows
+}
+
+fn add<const D: usize>(rows: &mut Table, packed: &Packed<D>, scene: &Scene, around: &Surroundings) {
+    let corner = |values: &[f64]| std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0));
+    let outer = Bounds::new(corner(&around.min), corner(&around.max));
+    let lattice = packed.frozen_lattice;
+    let (kernel, h_over_spacing) = scene.judge();
+    let gamma = lattice.gamma(kernel, h_over_spacing * packed.spacing);
+    let volume = lattice.volume_per_site();
+    let mut id = packed
+        .particles
+        .id
+        .iter()
+        .copied()
+        .max()
+        .map_or(0, |last| last + 1);
+    lattice.visit_beyond(outer, |p| {
+        rows.id.push(id);
+        rows.position.push(padded(p));
+        rows.kind.push(Kind::Frozen);
+        rows.side.push(Side::Fluid);
+        rows.body.push(None);
+        rows.volume.push(volume);
+        let mut density = scene.fluid.density;
+        if let Some(hydrostatic) = &scene.fluid.hydrostatic {
+            let rest = hydrostatic.at(padded(p), density);
+            density = rest.density;
+            rows.pressure.push(rest.pressure);
+            rows.density.push(density);
+        }
+        rows.mass.push(density * volume);
+        rows.gamma.push(gamma);
+        rows.residual.push(0.0);
+        rows.normal.push([0.0; 3]);
+        id += 1;
+    });
+}

@@ -1,0 +1,190 @@
+//! Which lattice to start from: what theory says of each, and what packings from it are like.
+
+mod stability;
+
+use std::fmt::Write as _;
+use std::fs;
+
+use sphpack::{Options, run as pack};
+use sphpack_kernels::KernelKind;
+use sphpack_packing::{Lattice, Silent};
+
+use crate::chart::{Axis, Chart, Scale, Series};
+use crate::reproduce::{Settings, load};
+use crate::root;
+
+const KERNELS: [KernelKind; 4] = [
+    KernelKind::Quintic,
+    KernelKind::Cubic,
+    KernelKind::WendlandC2,
+    KernelKind::WendlandC4,
+];
+
+const H_OVER_SPACING: [f64; 8] = [0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 1.8];
+
+/// Scenes that are packed in the plane and in space, with their spacings.
+const SCENES: [[(&str, f64); 2]; 2] = [
+    [("starfish", 0.05), ("zigzag", 0.05)],
+    [("sphere", 0.1), ("cube", 0.1)],
+];
+
+/// Evaluations after which a packing that does not settle is judged as it is.
+const PATIENCE: usize = 400;
+
+/// Eigenvalues below this part of the greatest are negative beyond rounding.
+const UNSTABLE: f64 = -1e-9;
+
+/// How a lattice did.
+struct Trial {
+    lattice: Lattice,
+    /// min λ / max λ.
+    softest: f64,
+    /// max Γ − min Γ, the greater of the scenes'.
+    variation: f64,
+    /// The least distance of two particles over ∆s.
+    closest: f64,
+    evaluations: usize,
+}
+
+/// The table of both, and the chart of the lattices that "auto" takes.
+pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+    let mut text = String::from(
+        "# Lattices to start from\n\n\
+         What a perfect lattice does under background pressure alone, and how packings that start from it end (method\n\
+         balanced, 400 evaluations at most; the worse of two scenes: starfish and zig-zag in the plane, sphere and\n\
+         turned cube in space). *stability* is the least eigenvalue of the dynamical matrix over the greatest; a\n\
+         negative one means that the lattice would rather be something else. *variation* is max Γ − min Γ by the kernel\n\
+         that packs, free of its bias. **Bold**: what `lattice = \"auto\"` takes. Regenerate with\n\
+         `cargo xtask lattices --write`.\n\n",
+    );
+    for dimension in [2, 3] {
+        let (table, chart) = of_dimension(dimension, settings)?;
+        let title = if dimension == 2 {
+            "In the plane"
+        } else {
+            "In space"
+        };
+        let _ = write!(
+            text,
+            "## {title}\n\n![Variation of density against h/∆s](lattices-{dimension}d.svg)\n\n{table}\n"
+        );
+        if settings.write {
+            write(&format!("docs/lattices-{dimension}d.svg"), &chart.svg())?;
+        }
+    }
+    if settings.write {
+        write("docs/lattices.md", &text)?;
+    }
+    Ok(())
+}
+
+fn write(name: &str, text: &str) -> Result<(), String> {
+    let path = root().join(name);
+    fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn of_dimension(dimension: usize, settings: &Settings) -> Result<(String, Chart), String> {
+    let mut table = String::from(
+        "| kernel | h/∆s | lattice | stability | variation | closest pair / ∆s | evaluations |\n|---|---|---|---|---|---|---|\n",
+    );
+    print!("\n{table}");
+    let mut series = Vec::new();
+    for kernel in KERNELS {
+        let mut points = Vec::new();
+        for h in H_OVER_SPACING {
+            if settings.quick && h != 1.2 {
+                continue;
+            }
+            for lattice in Lattice::ALL
+                .into_iter()
+                .filter(|l| l.dimension() == dimension)
+            {
+                let trial = attempt(lattice, kernel, h, settings)?;
+                let is_taken = Lattice::auto(dimension, kernel, h) == lattice;
+                if is_taken {
+                    points.push([h, 100.0 * trial.variation]);
+                }
+                let line = line(kernel, h, &trial, is_taken);
+                print!("{line}");
+                table.push_str(&line);
+            }
+        }
+        series.push(Series {
+            name: kernel.name().to_owned(),
+            points,
+            joined: true,
+        });
+    }
+    let chart = Chart {
+        title: if dimension == 2 {
+            "Packings in the plane"
+        } else {
+            "Packings in space"
+        },
+        axes: [
+            Axis {
+                title: "h/∆s",
+                scale: Scale::Linear,
+            },
+            Axis {
+                title: "max Γ − min Γ, %",
+                scale: Scale::Logarithmic,
+            },
+        ],
+        series,
+    };
+    Ok((table, chart))
+}
+
+fn attempt(
+    lattice: Lattice,
+    kernel: KernelKind,
+    h: f64,
+    settings: &Settings,
+) -> Result<Trial, String> {
+    let mut trial = Trial {
+        lattice,
+        softest: stability::softest(lattice, kernel, h)?,
+        variation: 0.0,
+        closest: f64::INFINITY,
+        evaluations: 0,
+    };
+    for (name, spacing) in SCENES[lattice.dimension() - 2] {
+        let Some(mut scene) = load(name, settings)? else {
+            continue;
+        };
+        scene.spacing = spacing;
+        scene.packing.kernel = Some(kernel);
+        scene.packing.h_over_spacing = Some(h);
+        scene.packing.lattice = Some(lattice);
+        scene.packing.max_iterations = PATIENCE;
+        let report = pack(&scene, &Options::default(), &mut Silent)
+            .map_err(|error| error.to_string())?
+            .report;
+        trial.variation = trial.variation.max(report.density.total_variation);
+        trial.closest = trial.closest.min(report.closest_pair_over_spacing);
+        trial.evaluations = trial.evaluations.max(report.force_evaluations);
+    }
+    Ok(trial)
+}
+
+fn line(kernel: KernelKind, h: f64, trial: &Trial, is_taken: bool) -> String {
+    let name = trial.lattice.name();
+    format!(
+        "| {} | {h} | {} | {} | {:.2} % | {:.2} | {} |\n",
+        kernel.name(),
+        if is_taken {
+            format!("**{name}**")
+        } else {
+            name.to_owned()
+        },
+        if trial.softest < UNSTABLE {
+            format!("{:.1e}", trial.softest)
+        } else {
+            "stable".to_owned()
+        },
+        100.0 * trial.variation,
+        trial.closest,
+        trial.evaluations,
+    )
+}
