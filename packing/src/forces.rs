@@ -1,5 +1,6 @@
 //! Density and forces of a particle set, evaluated again and again while it moves.
 
+use std::any::Any;
 use std::time::Instant;
 
 use fearless_simd::Level;
@@ -50,6 +51,21 @@ impl Interaction {
             Self::Cohesion => work.call(CohesionPotential::<D>::new(length)),
         }
     }
+}
+
+/// What a loop over the pairs sums up.
+#[derive(Debug, Clone, Copy)]
+enum Pass {
+    Sums,
+    ExcessGradient,
+}
+
+fn over_pairs_in_plane(forces: &mut Forces<2>, pass: Pass) {
+    forces.over_pairs_here(pass);
+}
+
+fn over_pairs_in_space(forces: &mut Forces<3>, pass: Pass) {
+    forces.over_pairs_here(pass);
 }
 
 /// Evaluates Γ, ∇Γ, repulsion and energy; keeps the neighbour list between calls.
@@ -117,6 +133,7 @@ impl<const D: usize> Forces<D> {
         skin: f64,
         repulsion: Repulsion,
     ) -> Self {
+        const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         Self {
             interaction,
             smoothing_length,
@@ -174,17 +191,9 @@ impl<const D: usize> Forces<D> {
         let listed = Instant::now();
         let unit = pair_sums::unit(self.smoothing_length);
         self.list.gather(positions, volumes, unit, &mut self.slots);
-        let pairs = PairLoop {
-            list: &self.list,
-            slots: &self.slots,
-            unit,
-            level: self.level,
-            repulsion: self.repulsion,
-            out: &mut self.sums,
-        };
-        self.interaction.with(self.smoothing_length * unit, pairs);
+        self.over_pairs(Pass::Sums);
         if let Some(levelling) = self.levelling {
-            self.level_out(levelling, volumes, unit);
+            self.level_out(levelling, volumes);
         }
         self.evaluations += 1;
         self.neighbor_seconds += (listed - start).as_secs_f64();
@@ -192,7 +201,7 @@ impl<const D: usize> Forces<D> {
     }
 
     /// The second pass, which needs every Γ.
-    fn level_out(&mut self, levelling: Levelling, volumes: &[f64], unit: f64) {
+    fn level_out(&mut self, levelling: Levelling, volumes: &[f64]) {
         self.excess.clear();
         self.excess.resize(volumes.len(), 0.0);
         for (sums, &i) in self.sums.iter().zip(self.list.target_particles()) {
@@ -200,14 +209,47 @@ impl<const D: usize> Forces<D> {
         }
         self.list.weigh(&self.excess, &mut self.slots);
         self.excess_gradient.resize(self.list.targets(), [0.0; D]);
-        let pairs = GradientLoop {
-            list: &self.list,
-            slots: &self.slots,
-            unit,
-            level: self.level,
-            out: &mut self.excess_gradient,
-        };
-        self.interaction.with(self.smoothing_length * unit, pairs);
+        self.over_pairs(Pass::ExcessGradient);
+    }
+
+    /// Runs a pair loop over the list. The loops are long code, for every kernel and vector width; by way of functions
+    /// that are not generic they are compiled with this crate, once, and not with every crate that packs.
+    fn over_pairs(&mut self, pass: Pass) {
+        let forces: &mut dyn Any = self;
+        if let Some(plane) = forces.downcast_mut::<Forces<2>>() {
+            over_pairs_in_plane(plane, pass);
+        } else if let Some(space) = forces.downcast_mut::<Forces<3>>() {
+            over_pairs_in_space(space, pass);
+        }
+    }
+
+    #[inline(always)]
+    fn over_pairs_here(&mut self, pass: Pass) {
+        let unit = pair_sums::unit(self.smoothing_length);
+        let h = self.smoothing_length * unit;
+        match pass {
+            Pass::Sums => {
+                let pairs = PairLoop {
+                    list: &self.list,
+                    slots: &self.slots,
+                    unit,
+                    level: self.level,
+                    repulsion: self.repulsion,
+                    out: &mut self.sums,
+                };
+                self.interaction.with(h, pairs);
+            }
+            Pass::ExcessGradient => {
+                let pairs = GradientLoop {
+                    list: &self.list,
+                    slots: &self.slots,
+                    unit,
+                    level: self.level,
+                    out: &mut self.excess_gradient,
+                };
+                self.interaction.with(h, pairs);
+            }
+        }
     }
 
     /// Must be called when a particle starts or stops being frozen.

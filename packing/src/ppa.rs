@@ -10,11 +10,11 @@ use crate::forces::Forces;
 use crate::motion::Motion;
 use crate::observer::{Observer, Phase};
 use crate::on_surface::OnSurface;
-use crate::packed::{Packed, StopReason};
+use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::Repulsion;
-use crate::seeding::{Seeds, particle_surfaces, seed};
+use crate::seeding::{Seeds, seed};
 use crate::watch::Watch;
 
 /// The particle packing algorithm (002 §III).
@@ -79,7 +79,13 @@ impl Ppa {
         course.enter(Phase::Geometry);
         let geometry = Instant::now();
         problem.check()?;
-        let surfaces = particle_surfaces(problem)?;
+        // No particle is on a wall: the fluid goes to the true surfaces.
+        let surfaces = (problem.bodies.iter())
+            .map(|body| ParticleSurface {
+                surface: body.surface.clone(),
+                target_count: 0,
+            })
+            .collect();
         course.seconds.geometry = geometry.elapsed().as_secs_f64();
         course.enter(Phase::Seeding);
         let seeding = Instant::now();

@@ -82,7 +82,7 @@ fn what_is_not_around_is_refused() {
     for (name, parts) in [
         ("small.toml", ["output.surroundings", "axis 0"]),
         ("flat.toml", ["output.surroundings.min", "2"]),
-        ("huge.toml", ["particles", "memory"]),
+        ("huge.toml", ["particles", "GiB"]),
         ("none.toml", ["output.surroundings", "leave it out"]),
     ] {
         desk.refuse(&["pack", name, "-o", "out.csv"], &parts);
