@@ -7,6 +7,7 @@ mod compare;
 mod dial;
 mod figures;
 mod fuzz;
+mod interface;
 #[path = "../../geometry/src/read/mangle.rs"]
 mod mangle;
 mod reproduce;
