@@ -1,8 +1,10 @@
 //! The standard method of paper 001 §3.2: a solid of offset layers, and fluid packed around it.
 
+use std::sync::Arc;
 use std::time::Instant;
 
-use sphpack_geometry::{Feature, GeometryError};
+use sphpack_geometry::{Feature, GeometryError, LevelInset, Surface};
+use sphpack_neighbors::{KdTree, point};
 
 use crate::course::Course;
 use crate::forces::Forces;
@@ -41,6 +43,9 @@ impl Default for Standard {
         }
     }
 }
+
+/// Where layers of opposite sides meet, a particle this near to an earlier one, in ∆s, is left out.
+const CROWDED: f64 = 0.6;
 
 /// Iterations between two looks at convergence.
 const LOOK_EVERY: usize = 50;
@@ -150,17 +155,32 @@ fn layers<const D: usize>(
         };
         for layer in 0.. {
             let depth = (body.inset_over_spacing + f64::from(layer)) * problem.spacing;
-            let surface = match body.surface.inset(depth) {
+            // By distance: deep polygon offsets of a curve of many points cross themselves everywhere, and take minutes.
+            let inset = match layer {
+                0 => body.surface.inset(depth),
+                _ => LevelInset::new(body.surface.clone(), depth)
+                    .map(|inset| Arc::new(inset) as Arc<dyn Surface<D>>),
+            };
+            let surface = match inset {
                 Ok(surface) => surface,
                 Err(GeometryError::Vanished { .. }) => break,
                 Err(error) => return Err(fail(error)),
             };
             // As many as fit at a distance of ∆s.
+            let earlier = KdTree::new(&particles.position).ok();
+            let mut own: Vec<[f64; D]> = Vec::new();
             let count = (surface.measure() / problem.spacing).floor().max(1.0) as usize;
             for hit in surface.sample(count).map_err(fail)? {
-                if is_taken(hit.point) {
+                let is_close =
+                    |other: [f64; D]| point::distance(other, hit.point) < CROWDED * problem.spacing;
+                let nearest = earlier.as_ref().and_then(|tree| tree.nearest(hit.point));
+                let is_crowded = nearest
+                    .is_some_and(|found| found.distance < CROWDED * problem.spacing)
+                    || own.iter().any(|&other| is_close(other));
+                if is_crowded || is_taken(hit.point) {
                     continue;
                 }
+                own.push(hit.point);
                 particles.push(hit.point, Kind::Fixed, volume, Some(number));
                 kinds.push(match (layer, hit.feature) {
                     (0, Feature::Smooth) => Kind::Boundary,
