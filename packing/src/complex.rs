@@ -11,6 +11,10 @@ use crate::relaxation::{Interface, Relaxation};
 /// In each step the bodies move first, each alone as in [`Relaxation`]; then the fluid, which sees the bodies' particles
 /// where separate relaxation has confinement (eq. 12). The coupling is one-way: bodies do not see the fluid. Which h
 /// holds between a fluid and a solid particle the paper does not say; here the fluid's.
+///
+/// The fluid is bounded "onto the non-contact surface" only (algorithm 1, line 14): a bound ∆s/2 outside of the bodies,
+/// as separate relaxation has, would hold the first layer back with h |Σ V ∇W| up to 0.08. It is kept out of the
+/// bodies, φ > 0 (eq. 11), which it hardly ever reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Complex {
     /// How bodies and fluid relax.

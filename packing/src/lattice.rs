@@ -87,6 +87,24 @@ impl Lattice {
         }
     }
 
+    /// The lattice with the least Γ, which is twice its energy per particle under a background pressure: the one to start
+    /// from where particles are to rest as they are. With Wendland's C2 at h/∆s = 1.05 that is the square and the simple
+    /// cubic lattice; a hexagonal one is unstable there. At 1.3 it is the hexagonal and the body-centred cubic one, and
+    /// the square lattice is unstable. Among equals the first of [`Lattice`].
+    pub fn of_least_gamma(dimension: usize, kernel: KernelKind, h_over_spacing: f64) -> Self {
+        let all: &[Self] = if dimension == 2 {
+            &[Self::Square, Self::Hexagonal]
+        } else {
+            &[Self::SimpleCubic, Self::Bcc, Self::Fcc, Self::Hcp]
+        };
+        let gamma = |lattice: Self| lattice.gamma(kernel, h_over_spacing);
+        let least = all
+            .iter()
+            .copied()
+            .min_by(|&a, &b| gamma(a).total_cmp(&gamma(b)));
+        least.unwrap_or(Self::auto(dimension))
+    }
+
     /// Edge lengths of the rectangular cell for a volume of one per site.
     fn cell(self) -> [f64; 3] {
         let root3 = 3.0_f64.sqrt();

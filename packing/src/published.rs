@@ -3,11 +3,12 @@
 use std::ops::ControlFlow;
 
 use sphpack_geometry::{Ball, Outline};
+use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
 use crate::{
-    Agitated, Clipped, Complex, Coupled, Hybrid, Kind, Observer, Packed, PackingError, Ppa,
-    Problem, Progress, Relaxation, Silent, Standard, StopReason,
+    Agitated, Clipped, Complex, Coupled, Hybrid, Kind, Lattice, Observer, Packed, PackingError,
+    Ppa, Problem, Progress, Relaxation, Silent, Standard, StopReason,
 };
 
 type Pack<const D: usize> = fn(&Problem<D>, &mut dyn Observer) -> Result<Packed<D>, PackingError>;
@@ -211,4 +212,87 @@ fn a_tank_keeps_its_fluid() {
     for &i in &fluid {
         assert!(problem.bodies[0].surface.inside(particles.position[i]));
     }
+}
+
+/// The body of scenes/zigzag.toml, with the kernel and h/∆s of 004.
+fn zigzag(spacing: f64) -> Problem<2> {
+    let corners = [
+        [-1.0, -1.0],
+        [1.0, -1.0],
+        [1.0, 0.0],
+        [0.75, 0.25],
+        [0.25, -0.25],
+        [-0.25, 0.25],
+        [-0.75, -0.25],
+        [-1.0, 0.0],
+    ];
+    let body = Outline::polygon(&corners).expect("a wall");
+    let mut problem =
+        Problem::new(Domain::new([-1.6, -1.6], [1.6, 0.9]), spacing).body("wall", body);
+    (problem.kernel, problem.h_over_spacing) = (KernelKind::WendlandC2, 1.3);
+    problem
+}
+
+/// Largest and mean h |Σ V ∇W| of the fluid within ∆s of the body (004 eq. 13).
+fn first_layer(problem: &Problem<2>, packed: &Packed<2>) -> (f64, f64) {
+    let fields = packed.fields(problem.kernel, problem.h_over_spacing);
+    let particles = &packed.particles;
+    let layer: Vec<f64> = (0..particles.len())
+        .filter(|&i| particles.kind[i] == Kind::Free && particles.body[i].is_none())
+        .filter(|&i| {
+            let hit = problem.bodies[0].surface.closest(particles.position[i]);
+            hit.distance < problem.spacing
+        })
+        .map(|i| fields.residual(i))
+        .collect();
+    let largest = layer.iter().copied().fold(0.0, f64::max);
+    (largest, layer.iter().sum::<f64>() / layer.len() as f64)
+}
+
+#[test]
+fn complex_relaxation_brings_the_first_layer_to_rest() {
+    let problem = zigzag(0.1);
+    let relaxation = Relaxation {
+        residual_tolerance: 1e-4,
+        max_iterations: 4000,
+        ..Relaxation::default()
+    };
+    let apart = relaxation.pack(&problem, &mut Silent).expect("apart");
+    let complex = Complex { relaxation }
+        .pack(&problem, &mut Silent)
+        .expect("together");
+    let (apart, complex) = (
+        first_layer(&problem, &apart),
+        first_layer(&problem, &complex),
+    );
+    println!("{apart:?} {complex:?}");
+    assert!(apart.1 > 0.01, "{apart:?}");
+    assert!(complex.0 < 1e-3 && complex.1 < 1e-4, "{complex:?}");
+}
+
+#[test]
+fn relaxed_bodies_keep_their_volume_and_their_places_apart() {
+    let problem = zigzag(0.05);
+    let packed = Complex { relaxation: SHORT }
+        .pack(&problem, &mut Silent)
+        .expect("a sound problem");
+    let quality = packed.quality(&packed.fields(KernelKind::Quintic, 1.2));
+    println!("{quality:?}");
+    let particles = &packed.particles;
+    let solid: f64 = (0..particles.len())
+        .filter(|&i| particles.body[i].is_some())
+        .map(|i| particles.volume[i])
+        .sum();
+    assert!((solid / problem.bodies[0].surface.volume() - 1.0).abs() < 1e-12);
+    assert!(quality.closest_pair_over_spacing > 0.7);
+    assert!(quality.density.linf < 0.02, "{}", quality.density.linf);
+}
+
+#[test]
+fn solids_start_from_the_lattice_that_rests_at_their_h() {
+    let least = |dimension, h| Lattice::of_least_gamma(dimension, KernelKind::WendlandC2, h);
+    assert_eq!(least(2, 1.05), Lattice::Square);
+    assert_eq!(least(2, 1.3), Lattice::Hexagonal);
+    assert_eq!(least(3, 1.05), Lattice::SimpleCubic);
+    assert_eq!(least(3, 1.3), Lattice::Bcc);
 }

@@ -15,16 +15,26 @@ use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::Repulsion;
-use crate::seeding::{Seeds, particle_surfaces, seed};
+use crate::seeding::particle_surfaces;
+
+mod start;
+
+use start::Start;
 
 /// The paper's separate relaxation (004 §2.1–2.2), in the plane and in space.
 ///
-/// Each body starts as the lattice's sites within it, and the fluid, the box without the bodies (eq. 11), is one body
-/// more. None sees another: what lies beyond its surface is completed as if it were full ([`Confinement`], eqs. 8 to
-/// 10), the fluid at the box's sides by the frozen lattice. Solids are bounded by their particle surface (eq. 7), the
-/// fluid by the set as far outside the true surface as keeps both ∆s apart. Particles of a body share its volume
-/// evenly. Kernel and h/∆s of the problem are the fluid's; the paper has Wendland's C2 at 1.3 there and at 1.05 in
-/// solids.
+/// Every body, and the fluid, the box without the bodies (eq. 11), relaxes alone. None sees another: what lies beyond
+/// its surface is completed as if it were full ([`Confinement`], eqs. 8 to 10), the fluid at the box's sides by the
+/// frozen lattice. Solids are bounded by their particle surface (eq. 7), the fluid by the set as far outside the true
+/// surface as keeps both ∆s apart. Kernel and h/∆s of the problem are the fluid's; the paper has Wendland's C2 at 1.3
+/// there and at 1.05 in solids.
+///
+/// Where the paper leaves room, what was chosen, by what was measured (`docs/methods.md`):
+///
+/// - The lattices at the start, and who sits on the bounding set: `relaxation/start.rs`.
+/// - Confinement has density 1 (eq. 8). With the lattice's own Γ₀ in its place, 1.033 in solids, bodies are denser
+///   inside, not more even.
+/// - ∆t (eq. 5) is capped by the stiffest mode, or nothing would come to rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Relaxation {
     /// Stop where the largest h |Σ V ∇W|, completed, of particles that the surface does not hold back, is below this.
@@ -86,11 +96,11 @@ impl Relaxation {
         course.seconds.geometry = geometry.elapsed().as_secs_f64();
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
-        let Seeds {
-            particles: lattice,
+        let Start {
+            solids,
+            fluid,
             frozen_lattice,
-        } = seed(problem)?;
-        let (solids, fluid) = divide(problem, &lattice);
+        } = Start::of(problem, &surfaces, self.solid_h_over_spacing)?;
         let own = fluid.len();
         let mut solids = self.confined_solids(problem, &surfaces, solids);
         let mut fluid = confined_fluid(problem, fluid, &solids, interface);
@@ -194,17 +204,26 @@ fn confined_fluid<'a, const D: usize>(
         }
     };
     let forces = Forces::of(problem, Repulsion::none());
-    let bound: Bound<'a, D> = Box::new(|p, _| fluid_bound(problem, p));
+    let bound: Bound<'a, D> = Box::new(move |p, _| fluid_bound(problem, interface, p));
     Confined::new(fluid, forces, confinement, bound)
 }
 
 /// The nearest place of the set that bounds the fluid, its normal out of the fluid, its distance negative within.
-fn fluid_bound<const D: usize>(problem: &Problem<D>, p: [f64; D]) -> Closest<D> {
+fn fluid_bound<const D: usize>(
+    problem: &Problem<D>,
+    interface: Interface,
+    p: [f64; D],
+) -> Closest<D> {
     let wrapped = problem.domain.wrap(p);
     let back = point::sub(p, wrapped);
     (problem.bodies.iter())
         .map(|body| {
-            let floor = (1.0 - body.inset_over_spacing).max(0.0) * problem.spacing;
+            let floor = match interface {
+                Interface::Confinement => {
+                    (1.0 - body.inset_over_spacing).max(0.0) * problem.spacing
+                }
+                Interface::Particles => 0.0,
+            };
             let hit = body.surface.closest(wrapped);
             let away = point::unit(point::sub(wrapped, hit.point));
             let normal = away.filter(|_| hit.distance > 0.0).unwrap_or(hit.normal);
@@ -222,42 +241,6 @@ fn fluid_bound<const D: usize>(problem: &Problem<D>, p: [f64; D]) -> Closest<D> 
             distance: f64::NEG_INFINITY,
             feature: Feature::Smooth,
         })
-}
-
-/// The lattice's sites within each body, and those of the fluid with the frozen ones. The sites of a body share its
-/// volume evenly, those of the fluid the rest of the box.
-fn divide<const D: usize>(
-    problem: &Problem<D>,
-    lattice: &Particles<D>,
-) -> (Vec<Particles<D>>, Particles<D>) {
-    let mut rest: Vec<usize> = (0..lattice.len()).collect();
-    let mut room = problem.domain.bounds.volume();
-    let mut solids = Vec::new();
-    for (body, number) in problem.bodies.iter().zip(0_u16..) {
-        let inside = body.surface.inside_batch(&lattice.position);
-        // Sites that an earlier body has taken had their share of this one.
-        let sites = (0..lattice.len()).filter(|&i| inside[i] && lattice.kind[i] == Kind::Free);
-        let volume = body.surface.volume() / sites.count().max(1) as f64;
-        let mut solid = Particles::default();
-        rest.retain(|&i| {
-            let is_solid = inside[i] && lattice.kind[i] == Kind::Free;
-            if is_solid {
-                solid.push(lattice.position[i], Kind::Free, volume, Some(number));
-            }
-            !is_solid
-        });
-        room -= volume * solid.len() as f64;
-        solids.push(solid);
-    }
-    let free = rest.iter().filter(|&&i| lattice.kind[i] == Kind::Free);
-    let volume = room / free.count().max(1) as f64;
-    let mut fluid = Particles::default();
-    for i in rest {
-        let (kind, own) = (lattice.kind[i], lattice.volume[i]);
-        let volume = if kind == Kind::Free { volume } else { own };
-        fluid.push(lattice.position[i], kind, volume, None);
-    }
-    (solids, fluid)
 }
 
 /// All particles, the bodies' first, and which of them their surface holds. `own` is how many of the fluid's

@@ -11,6 +11,7 @@ mod interface;
 #[path = "../../geometry/src/read/mangle.rs"]
 mod mangle;
 mod reproduce;
+mod rest;
 mod round_trip;
 mod rows;
 mod tidy;
@@ -32,8 +33,9 @@ cargo xtask TASK
                               --write also writes docs/reproduction.md
   balanced [--quick] [--only SCENE] [--data DIR] [--write]
                               the balanced method against its bars; --write also writes docs/balanced.md
-  compare [--quick] [--only SCENE] [--write]
-                              every method on every scene; --write also writes docs/methods.md
+  compare [--quick] [--only SCENE] [--interface] [--write]
+                              every method on every scene; --interface is paper 004's interface alone,
+                              --write also writes docs/methods.md, or that section of it
   round-trip [--python PROGRAM | --install]
                               particle files of every format, read by numpy, pyvista and meshio;
                               --install puts these into target/round-trip/venv first

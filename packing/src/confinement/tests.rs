@@ -71,7 +71,7 @@ fn agrees_with_cells_in_the_plane() {
     let disc = Ball::new([0.1, 0.2], 0.6).expect("a disc");
     let (value, gradient) = worst::<2>(&disc, &by_middle(&disc), 30, SPACING / 200.0);
     assert!(value < 0.001 && gradient < 0.002, "{value} {gradient}");
-    // Corners of 30°, 60° and 90°, and a reflex one.
+    // Corners of 90°, 18° and 45°, and a reflex one of 207°.
     let corners = [[0.0, 0.0], [1.5, 0.0], [0.6, 0.3], [0.0, 0.9]];
     let wedge = Outline::polygon(&corners).expect("a wedge");
     let (value, gradient) = worst::<2>(&wedge, &by_middle(&wedge), 40, SPACING / 200.0);
@@ -104,9 +104,10 @@ fn inside_and_outside_make_one() {
     let inside = Confinement::inside(&disc, &domain, kernel, H, SPACING);
     let outside = Confinement::outside(&[&disc], &domain, kernel, H, SPACING);
     for offset in [0.02, 0.05, 0.1] {
-        // By the mirror image of a nearly straight surface.
+        // What one calls outward the other calls inward.
         let beyond = inside.gamma([0.5 - offset, 0.0]) + outside.gamma([0.5 - offset, 0.0]);
         assert!(beyond.abs() < 1e-12, "{beyond}");
+        // Mirror images in a nearly straight surface.
         let (a, b) = (
             inside.gamma([0.5 - offset, 0.0]),
             outside.gamma([0.5 + offset, 0.0]),
