@@ -14,7 +14,7 @@ use crate::relaxation::{Interface, Relaxation};
 ///
 /// The fluid is bounded "onto the non-contact surface" only (algorithm 1, line 14): a bound ∆s/2 outside of the bodies,
 /// as separate relaxation has, would hold the first layer back with h |Σ V ∇W| up to 0.08. It is kept out of the
-/// bodies, φ > 0 (eq. 11), which it hardly ever reaches.
+/// bodies, φ > 0 (eq. 11), which holds back no more than a particle in a notch.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Complex {
     /// How bodies and fluid relax.

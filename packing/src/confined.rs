@@ -1,5 +1,6 @@
 //! Particles within a surface that bounds them, relaxed step by step (004 §2.1).
 
+use rayon::prelude::*;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
 
@@ -38,7 +39,8 @@ const NUDGE: f64 = 1e-4;
 const CORNER_ROUNDS: usize = 8;
 
 impl<'a, const D: usize> Confined<'a, D> {
-    /// Takes the particles as they are, but for those beyond the surface, which are put back onto it.
+    /// Takes the particles as they are, but for those beyond the surface, which are put back onto it. Free particles may
+    /// leave the surface again, boundary particles stay on it.
     pub(crate) fn new(
         particles: Particles<D>,
         forces: Forces<D>,
@@ -70,24 +72,39 @@ impl<'a, const D: usize> Confined<'a, D> {
             self.gradient[i] = self.forces.gradient(i);
         }
         if let Some(confinement) = &self.confinement {
-            let is_asked = |i: usize| kind[i] == Kind::Free;
+            let is_asked = |i: usize| kind[i] != Kind::Frozen;
             confinement.add_gradients(&self.particles.position, is_asked, &mut self.gradient);
         }
     }
 
-    /// Eq. 7, at the particle surface itself: what is beyond it comes to its nearest place.
+    /// Eq. 7, at the particle surface itself: what is beyond it comes to its nearest place, and boundary particles do from
+    /// either side.
     fn put_back(&mut self) {
-        self.is_bounded.fill(false);
-        for (i, mut hit) in self.watch.near(&self.particles, 0.0, &self.bound) {
+        for (bounded, kind) in self.is_bounded.iter_mut().zip(&self.particles.kind) {
+            *bounded = *kind == Kind::Boundary;
+        }
+        let back = self.watch.near(&self.particles, 0.0, &self.bound);
+        let (bound, body) = (&self.bound, &self.particles.body);
+        let close = 1e-9 * self.forces.smoothing_length();
+        let onto = |i: usize, mut hit: Closest<D>| {
+            let mut place = hit.point;
             for _ in 0..CORNER_ROUNDS {
-                self.particles.position[i] = hit.point;
-                hit = (self.bound)(hit.point, self.particles.body[i].unwrap_or(0));
-                if hit.distance < 1e-9 * self.forces.smoothing_length() {
+                hit = bound(place, body[i].unwrap_or(0));
+                if hit.distance < close {
                     break;
                 }
+                place = hit.point;
             }
+            place
+        };
+        for (i, hit) in back {
+            self.particles.position[i] = onto(i, hit);
             self.is_bounded[i] = true;
         }
+        (self.particles.position.par_iter_mut().enumerate())
+            .with_min_len(64)
+            .filter(|(i, _)| self.particles.kind[*i] == Kind::Boundary)
+            .for_each(|(i, place)| *place = onto(i, bound(*place, body[i].unwrap_or(0))));
     }
 
     /// One step from rest (eqs. 4 to 8); returns how far from rest it was: the largest h |∆r|/∆t², for particles that
@@ -99,7 +116,7 @@ impl<'a, const D: usize> Confined<'a, D> {
         self.evaluate();
         let (h, kind) = (self.forces.smoothing_length(), &self.particles.kind);
         let steepest = largest(kind.len(), |i| {
-            if kind[i] == Kind::Free {
+            if kind[i] != Kind::Frozen {
                 point::norm(self.gradient[i])
             } else {
                 0.0
@@ -109,7 +126,7 @@ impl<'a, const D: usize> Confined<'a, D> {
         let dt_squared = (h / 32.0 / steepest).min(STEP / self.stiffest);
         self.before.clone_from(&self.particles.position);
         for i in 0..self.particles.len() {
-            if self.particles.kind[i] == Kind::Free {
+            if self.particles.kind[i] != Kind::Frozen {
                 let x = &mut self.particles.position[i];
                 *x = point::add_scaled(*x, -dt_squared, self.gradient[i]);
             }
@@ -134,7 +151,7 @@ impl<'a, const D: usize> Confined<'a, D> {
         let mut stiffness = 0.0;
         for _ in 0..POWER_ROUNDS {
             for i in 0..count {
-                if self.particles.kind[i] != Kind::Free {
+                if self.particles.kind[i] == Kind::Frozen {
                     mode[i] = [0.0; D];
                 }
             }
@@ -150,7 +167,7 @@ impl<'a, const D: usize> Confined<'a, D> {
             let length = blocked_sum(&mode, |v| point::dot(*v, *v)).sqrt();
             for i in 0..count {
                 let change = point::sub(self.gradient[i], at_rest[i]);
-                mode[i] = if self.particles.kind[i] == Kind::Free {
+                mode[i] = if self.particles.kind[i] != Kind::Frozen {
                     point::scale(change, 1.0 / nudge)
                 } else {
                     [0.0; D]
