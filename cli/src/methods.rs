@@ -1,12 +1,12 @@
 //! From a scene's method to the one that packs.
 
 use sphpack_packing::{
-    Agitated, Balanced, Band, Clipped, Coupled, Hybrid, Observer, Packed, Ppa, Problem, Standard,
-    Triangulated,
+    Agitated, Balanced, Band, Clipped, Complex, Coupled, Hybrid, Observer, Packed, Ppa, Problem,
+    Relaxation, Standard, Triangulated,
 };
 
 use crate::Error;
-use crate::scene::{BandWidth, Method, Role, Scene};
+use crate::scene::{BandWidth, Method, PackingSpec, Role, Scene};
 
 /// Packs by the scene's method, with the scene's settings.
 pub(crate) fn pack<const D: usize>(
@@ -58,15 +58,25 @@ pub(crate) fn pack<const D: usize>(
         .pack(problem, observer),
         Method::Clipped => Clipped.pack(problem, observer),
         Method::Triangulated => Triangulated.pack(problem, observer),
-        other => {
-            return Err(Error::System(format!(
-                "this version has no method \"{}\"",
-                other.name()
-            )));
+        Method::Relaxation => relaxation(packing).pack(problem, observer),
+        Method::Complex => Complex {
+            relaxation: relaxation(packing),
         }
+        .pack(problem, observer),
     };
     packed.map_err(|source| Error::Packing {
         path: scene.path.clone(),
         source,
     })
+}
+
+fn relaxation(packing: &PackingSpec) -> Relaxation {
+    let defaults = Relaxation::default();
+    Relaxation {
+        residual_tolerance: packing
+            .residual_tolerance
+            .unwrap_or(defaults.residual_tolerance),
+        max_iterations: packing.max_iterations,
+        ..defaults
+    }
 }

@@ -176,7 +176,8 @@ impl Coupled {
                 course.note(&forces, particles);
             }
         }
-        course.earlier_evaluations += forces.evaluations() + pull.evaluations();
+        course.count(&forces);
+        course.count(&pull);
     }
 
     /// The second pass of algorithm 5.

@@ -20,7 +20,7 @@ pub(crate) struct Course<'a> {
     pub(crate) seconds: Seconds,
     /// What the observer is told next.
     pub(crate) progress: Progress,
-    /// Evaluations that other evaluators made than the one at the end.
+    /// Evaluations that were counted.
     pub(crate) earlier_evaluations: usize,
     /// Whether the observer wants an end.
     pub(crate) interrupted: bool,
@@ -84,6 +84,14 @@ impl<'a> Course<'a> {
         });
     }
 
+    /// Counts what an evaluator has done, when it is needed no more.
+    pub(crate) fn count<const D: usize>(&mut self, forces: &Forces<D>) {
+        let (neighbors, pairs) = forces.seconds();
+        self.seconds.neighbors += neighbors;
+        self.seconds.forces += pairs;
+        self.earlier_evaluations += forces.evaluations();
+    }
+
     /// The result: the clock stops.
     pub(crate) fn end<const D: usize>(
         mut self,
@@ -101,7 +109,7 @@ impl<'a> Course<'a> {
                 }
             }
         }
-        (self.seconds.neighbors, self.seconds.forces) = forces.seconds();
+        self.count(forces);
         self.seconds.total = self.begin.elapsed().as_secs_f64();
         Packed {
             particles,
@@ -124,7 +132,7 @@ impl<'a> Course<'a> {
                 stop_reason
             },
             iterations: self.progress.evaluation,
-            force_evaluations: self.earlier_evaluations + forces.evaluations(),
+            force_evaluations: self.earlier_evaluations,
             history: self.history,
             seconds: self.seconds,
         }

@@ -1,7 +1,5 @@
 //! Lattices that fill a box exactly, and go on beyond it.
 
-mod auto;
-
 use std::fmt;
 use std::str::FromStr;
 
@@ -78,6 +76,27 @@ impl Lattice {
             Self::Square | Self::Hexagonal => 2,
             _ => 3,
         }
+    }
+
+    /// What `lattice = "auto"` means for packing with a kernel at an h/∆s: the lattice of least Γ, which is twice its energy
+    /// per particle under a background pressure. That one is stable wherever one of its dimension is, or the least
+    /// unstable; `docs/lattices.md` has the eigenvalues, and what packings from stable lattices gain. With the quintic at
+    /// 1.2 it is the hexagonal and the body-centred cubic one. Hexagonal close packing, which is never stable alone, is
+    /// not asked.
+    pub fn auto(dimension: usize, kernel: KernelKind, h_over_spacing: f64) -> Self {
+        let (usual, others): (Self, &[Self]) = if dimension == 2 {
+            (Self::Hexagonal, &[Self::Square])
+        } else {
+            (Self::Bcc, &[Self::Fcc, Self::SimpleCubic])
+        };
+        let gamma = |lattice: Self| lattice.gamma(kernel, h_over_spacing);
+        (others.iter()).fold(usual, |best, &other| {
+            if gamma(other) < gamma(best) {
+                other
+            } else {
+                best
+            }
+        })
     }
 
     /// Edge lengths of the rectangular cell for a volume of one per site.

@@ -3,14 +3,21 @@
 use std::ops::ControlFlow;
 
 use sphpack_geometry::{Ball, Outline};
+use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
 use crate::{
-    Agitated, Clipped, Coupled, Hybrid, Kind, Observer, Packed, PackingError, Ppa, Problem,
-    Progress, Silent, Standard, StopReason, Triangulated,
+    Agitated, Clipped, Complex, Coupled, Hybrid, Kind, Lattice, Observer, Packed, PackingError,
+    Ppa, Problem, Progress, Relaxation, Silent, Standard, StopReason, Triangulated,
 };
 
 type Pack<const D: usize> = fn(&Problem<D>, &mut dyn Observer) -> Result<Packed<D>, PackingError>;
+
+const SHORT: Relaxation = Relaxation {
+    residual_tolerance: 3e-3,
+    max_iterations: 600,
+    solid_h_over_spacing: 1.05,
+};
 
 /// Each with limits that a test can afford.
 fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
@@ -32,6 +39,8 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
             }
             .pack(p, o)
         }),
+        ("relaxation", |p, o| SHORT.pack(p, o)),
+        ("complex", |p, o| Complex { relaxation: SHORT }.pack(p, o)),
         ("agitated", |p, o| {
             Agitated {
                 revolution: 1000,
@@ -75,7 +84,7 @@ fn ball() -> Problem<3> {
 }
 
 fn check<const D: usize>(name: &str, problem: &Problem<D>, packed: &Packed<D>) {
-    let fields = packed.fields(sphpack_kernels::KernelKind::Quintic, 1.2);
+    let fields = packed.fields(KernelKind::Quintic, 1.2);
     let quality = packed.quality(&fields);
     // The coupled method crowds its surface, most on a body of three spacings.
     let most = match name {
@@ -84,6 +93,7 @@ fn check<const D: usize>(name: &str, problem: &Problem<D>, packed: &Packed<D>) {
         "agitated" if D == 3 => 0.5,
         // Triangles do not move.
         "triangulated" => 0.5,
+        "complex" => 0.05,
         _ => 0.1,
     };
     let linf = quality.density.linf;
@@ -234,4 +244,92 @@ fn triangles_carry_the_area_of_their_body() {
                 .all(|&i| body.inside(packed.particles.position[i]))
         );
     }
+}
+
+/// The body of scenes/zigzag.toml, with the kernel and h/∆s of 004.
+fn zigzag(spacing: f64) -> Problem<2> {
+    let corners = [
+        [-1.0, -1.0],
+        [1.0, -1.0],
+        [1.0, 0.0],
+        [0.75, 0.25],
+        [0.25, -0.25],
+        [-0.25, 0.25],
+        [-0.75, -0.25],
+        [-1.0, 0.0],
+    ];
+    let body = Outline::polygon(&corners).expect("a wall");
+    let mut problem =
+        Problem::new(Domain::new([-1.6, -1.6], [1.6, 0.9]), spacing).body("wall", body);
+    (problem.kernel, problem.h_over_spacing) = (KernelKind::WendlandC2, 1.3);
+    problem
+}
+
+/// Largest and mean h |Σ V ∇W| of the fluid within ∆s of the body (004 eq. 13).
+fn first_layer(problem: &Problem<2>, packed: &Packed<2>) -> (f64, f64) {
+    let fields = packed.fields(problem.kernel, problem.h_over_spacing);
+    let particles = &packed.particles;
+    let layer: Vec<f64> = (0..particles.len())
+        .filter(|&i| particles.kind[i] == Kind::Free && particles.body[i].is_none())
+        .filter(|&i| {
+            let hit = problem.bodies[0].surface.closest(particles.position[i]);
+            hit.distance < problem.spacing
+        })
+        .map(|i| fields.residual(i))
+        .collect();
+    let largest = layer.iter().copied().fold(0.0, f64::max);
+    (largest, layer.iter().sum::<f64>() / layer.len() as f64)
+}
+
+#[test]
+fn complex_relaxation_brings_the_first_layer_to_rest() {
+    let relaxation = Relaxation {
+        residual_tolerance: 1e-4,
+        max_iterations: 4000,
+        ..Relaxation::default()
+    };
+    let layers = |problem: &Problem<2>| {
+        let apart = relaxation.pack(problem, &mut Silent).expect("apart");
+        let complex = Complex { relaxation };
+        let complex = complex.pack(problem, &mut Silent).expect("together");
+        let layers = (first_layer(problem, &apart), first_layer(problem, &complex));
+        println!("{layers:?}");
+        layers
+    };
+    let mut smooth = disc();
+    (smooth.kernel, smooth.h_over_spacing) = (KernelKind::WendlandC2, 1.3);
+    let (apart, complex) = layers(&smooth);
+    assert!(apart.1 > 0.01, "{apart:?}");
+    assert!(complex.0 < 1e-3, "{complex:?}");
+    // In its notches φ > 0 holds a particle back.
+    let (apart, complex) = layers(&zigzag(0.1));
+    assert!(complex.0 < 0.25 * apart.0, "{apart:?} {complex:?}");
+    assert!(complex.1 < 0.02 * apart.1, "{apart:?} {complex:?}");
+}
+
+#[test]
+fn relaxed_bodies_keep_their_volume_and_their_places_apart() {
+    let problem = zigzag(0.05);
+    let packed = Complex { relaxation: SHORT }
+        .pack(&problem, &mut Silent)
+        .expect("a sound problem");
+    let quality = packed.quality(&packed.fields(KernelKind::Quintic, 1.2));
+    let particles = &packed.particles;
+    let solid: f64 = (0..particles.len())
+        .filter(|&i| particles.body[i].is_some())
+        .map(|i| particles.volume[i])
+        .sum();
+    assert!((solid / problem.bodies[0].surface.volume() - 1.0).abs() < 1e-12);
+    let closest = quality.closest_pair_over_spacing;
+    assert!(closest > 0.8, "{closest}");
+    assert!(quality.density.linf < 0.015, "{}", quality.density.linf);
+}
+
+#[test]
+fn solids_start_from_the_lattice_that_rests_at_their_h() {
+    let least = |dimension, h| Lattice::auto(dimension, KernelKind::WendlandC2, h);
+    assert_eq!(least(2, 1.05), Lattice::Square);
+    assert_eq!(least(2, 1.3), Lattice::Hexagonal);
+    assert_eq!(least(3, 1.05), Lattice::SimpleCubic);
+    assert_eq!(least(3, 1.3), Lattice::Bcc);
 }

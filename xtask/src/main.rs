@@ -9,10 +9,12 @@ mod compare;
 mod dial;
 mod figures;
 mod fuzz;
+mod interface;
 mod lattices;
 #[path = "../../geometry/src/read/mangle.rs"]
 mod mangle;
 mod reproduce;
+mod rest;
 mod round_trip;
 mod rows;
 mod speed;
@@ -35,8 +37,9 @@ cargo xtask TASK
                               --write also writes docs/reproduction.md
   balanced [--quick] [--only SCENE] [--data DIR] [--write]
                               the balanced method against its bars; --write also writes docs/balanced.md
-  compare [--quick] [--only SCENE] [--write]
-                              every method on every scene; --write also writes docs/methods.md
+  compare [--quick] [--only SCENE] [--interface] [--write]
+                              every method on every scene; --interface is paper 004's interface alone,
+                              --write also writes docs/methods.md, or that section of it
   lattices [--quick] [--write]
                               stability of every lattice, and packings from it; --write also writes docs/lattices.md
   speed [--quick] [--only SCENE] [--data DIR] [--write]

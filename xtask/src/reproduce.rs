@@ -23,6 +23,8 @@ pub(crate) struct Settings {
     pub(crate) only: Option<String>,
     /// Where bunny.stl is; `data` in the workspace if not said.
     pub(crate) data: Option<PathBuf>,
+    /// Of `compare`, paper 004's interface alone.
+    pub(crate) interface: bool,
 }
 
 impl Settings {
@@ -33,6 +35,7 @@ impl Settings {
             match argument.as_str() {
                 "--quick" => settings.quick = true,
                 "--write" => settings.write = true,
+                "--interface" => settings.interface = true,
                 "--only" => {
                     let scene = arguments.next().ok_or("--only needs a scene's name")?;
                     settings.only = Some(scene.clone());

@@ -16,9 +16,9 @@ pub enum Method {
     Standard,
     /// Inside and outside packed apart, then together (001 §3.3).
     Coupled,
-    /// Level-set relaxation with surface bounding (004).
+    /// Bodies and fluid relaxed apart, bounded and confined (004 §2.1).
     Relaxation,
-    /// Relaxation of bodies and fluid together (004).
+    /// The same, the fluid against the bodies' particles (004 §2.3).
     Complex,
     /// Stirred until the surface has its share (000).
     Agitated,
@@ -90,15 +90,15 @@ pub const METHODS: [MethodInfo; 10] = [
     MethodInfo {
         method: Method::Relaxation,
         name: "relaxation",
-        is_available: false,
-        summary: "level-set relaxation with surface bounding",
+        kernel: (KernelKind::WendlandC2, 1.3),
+        summary: "bodies and fluid relaxed apart, each within its surface (paper 004)",
         ..USUAL
     },
     MethodInfo {
         method: Method::Complex,
         name: "complex",
-        is_available: false,
-        summary: "relaxation of bodies and fluid together",
+        kernel: (KernelKind::WendlandC2, 1.3),
+        summary: "bodies relaxed alone, the fluid against their particles (paper 004)",
         ..USUAL
     },
     MethodInfo {

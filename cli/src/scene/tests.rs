@@ -294,7 +294,7 @@ fn numbers_out_of_range_are_named() {
         ("h_over_spacing = 20", "between 0.5 and 5"),
         ("velocity_tolerance = 0", "velocity_tolerance is 0"),
         ("max_iterations = -1", "-1"),
-        ("method = \"relaxation\"", "not in this version"),
+        ("method = \"relaxed\"", "relaxation"),
         ("minimiser = \"newton\"", "no minimiser is called"),
         ("mass_spread = 1.5", "mass_spread is 1.5"),
         ("levelling = -1", "levelling is -1"),

@@ -97,8 +97,8 @@ fn command_lines_are_checked() {
             "from 1 to 1024",
         ),
         (
-            &["pack", "scene.toml", "--method", "relaxation"],
-            "not in this version",
+            &["pack", "scene.toml", "--method", "relaxed"],
+            "no method is called",
         ),
     ] {
         desk.refuse(arguments, &[part]);

@@ -36,8 +36,8 @@ fn unknown_words_are_located() {
     );
     refuse(
         "[packing]",
-        "[packing]\nmethod = \"relaxation\"",
-        &["scene.toml:9:10", "not in this version", "hybrid"],
+        "[packing]\nmethod = \"relaxed\"",
+        &["scene.toml:9:10", "relaxation"],
     );
     refuse("[packing]", "[packing", &["scene.toml:8:"]);
 }

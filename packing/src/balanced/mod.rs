@@ -2,7 +2,7 @@
 
 mod band;
 mod clashes;
-mod shares;
+pub(crate) mod shares;
 #[cfg(test)]
 mod tests;
 

@@ -13,7 +13,7 @@ const CUBE: f64 = 4.0;
 
 /// Signed distances of sites to every body: exact near a surface, roughly right and of the right sign elsewhere.
 #[derive(Debug)]
-pub(super) struct Depths {
+pub(crate) struct Depths {
     bodies: usize,
     /// Site after site, one entry per body.
     phi: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct Depths {
 impl Depths {
     /// Exact within `near` (scene units) of a surface, and no farther from it than true elsewhere. One query per cube of
     /// [`CUBE`] sites a side, and one per site where that cube is near a surface.
-    pub(super) fn of<const D: usize>(
+    pub(crate) fn of<const D: usize>(
         bodies: &[Body<D>],
         bounds: Bounds<D>,
         spacing: f64,
@@ -140,11 +140,11 @@ impl Layer {
 
 /// What a region, a body or the fluid, is to hold beside surface particles.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Share {
+pub(crate) struct Share {
     /// Its lattice sites.
-    pub(super) sites: usize,
+    pub(crate) sites: usize,
     /// The volume of each of their particles: together they have what the layers of surface particles leave.
-    pub(super) particle_volume: f64,
+    pub(crate) particle_volume: f64,
 }
 
 /// Who gets what.
@@ -198,28 +198,15 @@ pub(super) fn shares<const D: usize>(
             volume
         })
         .collect();
-    let inside: Vec<Vec<usize>> = (0..bodies.len())
-        .map(|b| {
-            let outer = bodies[b].surface.as_ref();
-            (0..b)
-                .filter(|&a| is_inside(bodies[a].surface.as_ref(), outer))
-                .collect()
-        })
-        .collect();
+    let direct = directly_inside(bodies);
     let mut left = sites.saturating_sub(on_surface.iter().sum());
     let mut regions = Vec::with_capacity(bodies.len() + 1);
     for region in 0..=bodies.len() {
-        let all = (0..bodies.len()).collect();
-        let within = inside.get(region).unwrap_or(&all);
-        // Bodies directly inside: not those inside another of them.
-        let direct = within
-            .iter()
-            .filter(|a| !within.iter().any(|&c| inside[c].contains(a)));
         let mut volume = match bodies.get(region) {
             Some(body) => body.surface.volume() - layers[region].inner,
             None => problem.domain.bounds.volume(),
         };
-        for &a in direct {
+        for &a in &direct[region] {
             volume -= bodies[a].surface.volume() + layers[a].outer;
         }
         let own = if region < bodies.len() {
@@ -247,6 +234,27 @@ pub(super) fn shares<const D: usize>(
     }
 }
 
+/// For every body, and for the fluid last, the bodies that come before and lie in it, without those inside another of
+/// them.
+pub(crate) fn directly_inside<const D: usize>(bodies: &[Body<D>]) -> Vec<Vec<usize>> {
+    let mut inside: Vec<Vec<usize>> = (0..bodies.len())
+        .map(|b| {
+            let outer = bodies[b].surface.as_ref();
+            (0..b)
+                .filter(|&a| is_inside(bodies[a].surface.as_ref(), outer))
+                .collect()
+        })
+        .collect();
+    inside.push((0..bodies.len()).collect());
+    (inside.iter())
+        .map(|within| {
+            (within.iter().copied())
+                .filter(|a| !within.iter().any(|&c| inside[c].contains(a)))
+                .collect()
+        })
+        .collect()
+}
+
 /// Whether the whole of `inner` is in `outer`, if their surfaces do not meet.
 fn is_inside<const D: usize>(inner: &dyn Surface<D>, outer: &dyn Surface<D>) -> bool {
     outer.inside(inner.closest(inner.bounds().center()).point)
@@ -255,7 +263,7 @@ fn is_inside<const D: usize>(inner: &dyn Surface<D>, outer: &dyn Surface<D>) -> 
 /// The region of every site that is kept, `None` for those left out: in every region the deepest are kept. Fewer than
 /// asked for only where there are not enough sites. Depths are compared to within 10⁻⁹ ∆s, so that neither the unit of
 /// length nor the place of the origin decides between equals.
-pub(super) fn choose(
+pub(crate) fn choose(
     depths: &Depths,
     sites: usize,
     regions: &[Share],

@@ -46,7 +46,7 @@ struct Trial {
     evaluations: usize,
 }
 
-/// The table of both, and the chart of the lattices that "auto" takes.
+/// Writes the table of both, and the chart of the lattices that "auto" takes.
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let mut text = String::from(
         "# Lattices to start from\n\n\
@@ -54,8 +54,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
          balanced, 400 evaluations at most; the worse of two scenes: starfish and zig-zag in the plane, sphere and\n\
          turned cube in space). *stability* is the least eigenvalue of the dynamical matrix over the greatest; a\n\
          negative one means that the lattice would rather be something else. *variation* is max Γ − min Γ by the kernel\n\
-         that packs, free of its bias. **Bold**: what `lattice = \"auto\"` takes. Regenerate with\n\
-         `cargo xtask lattices --write`.\n\n",
+         that packs, free of its bias. **Bold**: what `lattice = \"auto\"` takes, the lattice of least Γ, that is of least\n\
+         energy. Regenerate with `cargo xtask lattices --write`.\n\n",
     );
     for dimension in [2, 3] {
         let (table, chart) = of_dimension(dimension, settings)?;

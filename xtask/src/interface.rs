@@ -1,0 +1,179 @@
+//! What paper 004 shows of its methods: density, and the fluid's first layer at the interface.
+
+use std::fmt::Write as _;
+
+use sphpack::scene::Method;
+use sphpack::{Options, Packing, Solution, run as pack};
+use sphpack_kernels::KernelKind;
+use sphpack_neighbors::point;
+use sphpack_packing::{Fields, Kind, Lattice, Relaxation, Silent};
+
+use crate::reproduce::{Settings, load};
+use crate::rest::at_rest;
+
+const HEAD: &str = "\
+| scene | ∆s | method | Γ/Γ₀ − 1, own kernel and h: solid | fluid | L∞ by the quintic | \
+first fluid layer: h KGS max, mean | its kinetic energy, end / start | iterations | |
+|---|---|---|---|---|---|---|---|---|---|
+";
+
+/// Scenes and spacings; three of each where the paper has curves for three.
+const ROWS: [(&str, f64); 7] = [
+    ("cylinder", 0.1),
+    ("starfish", 0.1),
+    ("starfish", 0.075),
+    ("starfish", 0.05),
+    ("zigzag", 0.1),
+    ("zigzag", 0.05),
+    ("zigzag", 0.025),
+];
+
+/// The paper stops after a number of steps that it does not print; these come to rest as far as they do.
+const TOLERANCE: f64 = 1e-4;
+const MOST_ITERATIONS: usize = 4000;
+
+/// The paper's kernel, and h/∆s in the fluid; in solids it is [`Relaxation::solid_h_over_spacing`].
+const KERNEL: KernelKind = KernelKind::WendlandC2;
+const FLUID_H: f64 = 1.3;
+
+/// Separate relaxation, complex relaxation and our balanced method, judged alike.
+pub(crate) fn interface(settings: &Settings) -> Result<String, String> {
+    let mut table = HEAD.to_owned();
+    let mut factors = String::new();
+    print!("\n{HEAD}");
+    for (name, spacing) in ROWS {
+        if !settings.wants(name, name == "cylinder") {
+            continue;
+        }
+        let mut layers = Vec::new();
+        for method in [Method::Relaxation, Method::Complex, Method::Balanced] {
+            let Some((solution, end)) = packed(name, spacing, method, MOST_ITERATIONS, settings)?
+            else {
+                continue;
+            };
+            let figures = Figures::of(&solution);
+            let mut energy = "–".to_owned();
+            if method != Method::Balanced {
+                let begin = packed(name, spacing, method, 0, settings)?;
+                let begin = begin.map_or(f64::NAN, |(begin, _)| Figures::of(&begin).energy);
+                energy = format!("{:.1e}", figures.energy / begin);
+                layers.push(figures.layer);
+            }
+            let [solid, fluid] = figures.density;
+            let percent = |x: f64| 100.0 * x;
+            let mut line = String::new();
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                line,
+                "| {name} | {spacing} | {} | {:+.2} … {:+.2} % | {:+.2} … {:+.2} % | {:.2} % | {:.1e}, {:.1e} | {energy} | {end} |",
+                method.name(),
+                percent(solid[0]),
+                percent(solid[1]),
+                percent(fluid[0]),
+                percent(fluid[1]),
+                percent(figures.quintic),
+                figures.layer[0],
+                figures.layer[1],
+            );
+            print!("{line}");
+            table.push_str(&line);
+        }
+        if let [separate, complex] = layers[..] {
+            let _ = write!(
+                factors,
+                "{}{name} {spacing}: {:.0} and {:.0}",
+                if factors.is_empty() { "" } else { "; " },
+                separate[0] / complex[0],
+                separate[1] / complex[1],
+            );
+        }
+    }
+    let factors = format!(
+        "Complex relaxation lowers the layer's KGS by these factors, maximum and mean: {factors}.\n"
+    );
+    println!("\n{factors}");
+    let rest = at_rest();
+    Ok(format!("{table}\n{factors}\n{rest}"))
+}
+
+/// A scene by a method, and how it ended; `None` where the scene's body is not there.
+fn packed(
+    name: &str,
+    spacing: f64,
+    method: Method,
+    most: usize,
+    settings: &Settings,
+) -> Result<Option<(Solution<2>, String)>, String> {
+    let Some(mut scene) = load(name, settings)? else {
+        return Ok(None);
+    };
+    scene.spacing = spacing;
+    scene.packing.method = method;
+    if method != Method::Balanced {
+        scene.packing.residual_tolerance = Some(TOLERANCE);
+        scene.packing.max_iterations = most;
+    }
+    let outcome =
+        pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
+    let end = format!(
+        "{} | {}",
+        outcome.report.iterations, outcome.report.stop_reason
+    );
+    Ok(match outcome.packing {
+        Packing::Plane(solution) => Some((solution, end)),
+        Packing::Space(_) => None,
+    })
+}
+
+/// What is judged.
+struct Figures {
+    /// Least and largest Γ/Γ₀ − 1 of the solids' particles and of the fluid's, by their own kernel and h.
+    density: [[f64; 2]; 2],
+    /// Largest |Γ − 1| by the quintic kernel at h/∆s = 1.2.
+    quintic: f64,
+    /// Largest and mean h |Σ V ∇W| of the fluid within ∆s of a body (004's KGS, eq. 13).
+    layer: [f64; 2],
+    /// Σ V |Σ V ∇W|² of these: eq. 14 at a fixed ∆t, but for a factor.
+    energy: f64,
+}
+
+impl Figures {
+    fn of(solution: &Solution<2>) -> Self {
+        let (packed, bodies) = (&solution.packed, &solution.problem.bodies);
+        let particles = &packed.particles;
+        let solid_h = Relaxation::default().solid_h_over_spacing;
+        let by = [solid_h, FLUID_H].map(|h| {
+            let fields: Fields<2> = packed.fields(KERNEL, h);
+            (fields, Lattice::auto(2, KERNEL, h).gamma(KERNEL, h))
+        });
+        let quintic = packed.fields(KernelKind::Quintic, 1.2);
+        let mut figures = Self {
+            density: [[f64::INFINITY, f64::NEG_INFINITY]; 2],
+            quintic: 0.0,
+            layer: [0.0; 2],
+            energy: 0.0,
+        };
+        let mut count = 0;
+        for i in (0..particles.len()).filter(|&i| particles.kind[i] != Kind::Frozen) {
+            let p = particles.position[i];
+            let is_fluid = particles.body[i].is_none();
+            let (fields, lattice) = &by[usize::from(is_fluid)];
+            let off = fields.gamma[i] / lattice - 1.0;
+            let [low, high] = &mut figures.density[usize::from(is_fluid)];
+            (*low, *high) = (low.min(off), high.max(off));
+            figures.quintic = figures.quintic.max((quintic.gamma[i] - 1.0).abs());
+            let is_near = |surface: f64| surface < packed.spacing;
+            let is_first = (bodies.iter()).any(|body| is_near(body.surface.closest(p).distance));
+            if is_fluid && is_first {
+                let residual = fields.residual(i);
+                figures.layer[0] = figures.layer[0].max(residual);
+                figures.layer[1] += residual;
+                figures.energy +=
+                    particles.volume[i] * point::dot(fields.gradient[i], fields.gradient[i]);
+                count += 1;
+            }
+        }
+        figures.layer[1] /= f64::from(count.max(1));
+        figures
+    }
+}
