@@ -53,7 +53,7 @@ impl<const D: usize> Part<D> {
     pub(super) fn of(problem: &Problem<D>, particles: &Particles<D>, width: f64) -> Self {
         let sight = problem.frozen_depth();
         let distance = if width.is_finite() {
-            distances(problem, particles, width + sight)
+            distances(problem, particles)
         } else {
             vec![0.0; particles.len()]
         };
@@ -71,8 +71,13 @@ impl<const D: usize> Part<D> {
                 is_all,
             };
         }
+        // Whoever is seen by what moves or is on the rim must be there, however far off its distance is: it may be too
+        // great by the whole error where another part of the surface is nearer than that of the cube's middle, too
+        // small only by what the way across the gradient adds.
+        let error = Depths::error::<D>(problem.spacing);
+        let seen = width + 2.0 * sight + error + (0.5 * error).powi(2) / (2.0 * width);
         let order: Vec<usize> = (0..particles.len())
-            .filter(|&i| distance[i] <= width + 2.0 * sight)
+            .filter(|&i| distance[i] <= seen)
             .collect();
         let mut part = particles.selected(&order);
         let mut rim = Vec::new();
@@ -119,15 +124,11 @@ impl<const D: usize> Part<D> {
     }
 }
 
-/// Every particle's distance from the nearest surface; where that is more than `near`, something between both.
-fn distances<const D: usize>(
-    problem: &Problem<D>,
-    particles: &Particles<D>,
-    near: f64,
-) -> Vec<f64> {
+/// Every particle's distance from the nearest surface, right to first order.
+fn distances<const D: usize>(problem: &Problem<D>, particles: &Particles<D>) -> Vec<f64> {
     let around = problem.domain.bounds.grown(problem.frozen_depth());
     let places = &particles.position;
-    let depths = Depths::of(&problem.bodies, around, problem.spacing, near, places);
+    let depths = Depths::of(&problem.bodies, around, problem.spacing, 0.0, places);
     (0..particles.len())
         .map(|i| {
             if particles.kind[i].is_on_surface() {

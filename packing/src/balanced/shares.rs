@@ -11,7 +11,7 @@ use crate::problem::{Body, Problem};
 /// Sites per edge of a cube of sites that is asked about as a whole.
 const CUBE: f64 = 4.0;
 
-/// Signed distances of sites to every body: exact near a surface, roughly right and of the right sign elsewhere.
+/// Signed distances of sites to every body: exact near a surface, right to first order and of the right sign elsewhere.
 #[derive(Debug)]
 pub(crate) struct Depths {
     bodies: usize,
@@ -19,9 +19,33 @@ pub(crate) struct Depths {
     phi: Vec<f64>,
 }
 
+/// What is seen of a body from a place: the signed distance, and the direction in which it grows.
+#[derive(Debug, Clone, Copy)]
+struct Seen<const D: usize> {
+    distance: f64,
+    gradient: [f64; D],
+}
+
+impl<const D: usize> Seen<D> {
+    fn from(body: &Body<D>, place: [f64; D]) -> Self {
+        let hit = body.surface.closest(place);
+        let away = point::unit(point::sub(place, hit.point)).unwrap_or([0.0; D]);
+        Self {
+            distance: hit.distance,
+            gradient: point::scale(away, hit.distance.signum()),
+        }
+    }
+}
+
 impl Depths {
-    /// Exact within `near` (scene units) of a surface, and no farther from it than true elsewhere. One query per cube of
-    /// [`CUBE`] sites a side, and one per site where that cube is near a surface.
+    /// How far a distance may be off where it is not exact, scene units.
+    pub(super) fn error<const D: usize>(spacing: f64) -> f64 {
+        CUBE * spacing * (D as f64).sqrt()
+    }
+
+    /// Exact within `near` (scene units) of a surface, and nowhere nearer than that by mistake. One query per cube of
+    /// [`CUBE`] sites a side, and one per site where that cube is near a surface; elsewhere the distance of the cube's
+    /// middle is continued along its gradient, off by the cube's diagonal at most.
     pub(crate) fn of<const D: usize>(
         bodies: &[Body<D>],
         bounds: Bounds<D>,
@@ -44,13 +68,13 @@ impl Depths {
                 })
             })
             .collect();
-        let far: Vec<Vec<f64>> = bodies
+        let far: Vec<Vec<Seen<D>>> = bodies
             .iter()
             .map(|body| {
                 centers
                     .par_iter()
                     .with_min_len(64)
-                    .map(|&c| body.surface.closest(c).distance)
+                    .map(|&c| Seen::from(body, c))
                     .collect()
             })
             .collect();
@@ -71,8 +95,10 @@ impl Depths {
                 .for_each(|(phi, &site)| {
                     let cube = cube_of(site);
                     for ((phi, body), far) in phi.iter_mut().zip(bodies).zip(&far) {
-                        *phi = if far[cube].abs() > radius + near {
-                            far[cube] - radius.copysign(far[cube])
+                        let seen = &far[cube];
+                        *phi = if seen.distance.abs() > radius + near {
+                            let way = point::sub(site, centers[cube]);
+                            seen.distance + point::dot(seen.gradient, way)
                         } else {
                             body.surface.closest(site).distance
                         };

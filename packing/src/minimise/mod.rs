@@ -27,6 +27,7 @@
 
 mod damped;
 mod fire;
+mod history;
 mod landscape;
 mod lbfgs;
 mod settling;

@@ -1,0 +1,278 @@
+//! What L-BFGS remembers, and the direction that it makes of it.
+
+use std::collections::VecDeque;
+
+use rayon::prelude::*;
+
+/// The most pairs that can be remembered.
+pub(super) const MOST_PAIRS: usize = 16;
+
+/// Entries per task, and the fixed block of a sum.
+const BLOCK: usize = 4096;
+
+/// Rows of products: with the newest step, with the newest change of the gradient, with the force.
+const ROWS: usize = 3;
+
+/// A pair teaches nothing where step · change is below this part of |step| |change|.
+const FLAT: f64 = 1e-8;
+
+/// How one step changed the gradient. In single precision: the pairs are read twice per step and most of what a
+/// minimiser reads at all, and a direction needs no more digits.
+#[derive(Debug, Clone, Default)]
+struct Pair<const D: usize> {
+    step: Vec<[f32; D]>,
+    change: Vec<[f32; D]>,
+}
+
+/// Pairs of steps and gradient changes, and the scalar products between them and with the force. All products that one
+/// step of the two-loop recursion (Nocedal & Wright, Numerical Optimization, algorithm 7.4) asks for are known before
+/// it begins, so it is a calculation with small numbers, and long vectors are passed over twice per step: once for the
+/// products, once for their combination (Chen, Wang, Zhou: "Large-scale L-BFGS using MapReduce", NIPS 2014).
+#[derive(Debug, Clone)]
+pub(super) struct History<const D: usize> {
+    pairs: Vec<Pair<D>>,
+    /// Places in `pairs`, the oldest first.
+    order: VecDeque<usize>,
+    /// Products of the vectors: pair p has its step at 2p, its change at 2p + 1.
+    products: Vec<[f64; 2 * MOST_PAIRS]>,
+    /// Products with the force.
+    with_force: [f64; 2 * MOST_PAIRS],
+}
+
+impl<const D: usize> Default for History<D> {
+    fn default() -> Self {
+        Self {
+            pairs: Vec::new(),
+            order: VecDeque::new(),
+            products: vec![[0.0; 2 * MOST_PAIRS]; 2 * MOST_PAIRS],
+            with_force: [0.0; 2 * MOST_PAIRS],
+        }
+    }
+}
+
+/// From which place to which, and the force before and after.
+#[derive(Clone, Copy)]
+pub(super) struct Taken<'a, const D: usize> {
+    pub(super) from: &'a [[f64; D]],
+    pub(super) to: &'a [[f64; D]],
+    pub(super) force_before: &'a [[f64; D]],
+    pub(super) force: &'a [[f64; D]],
+}
+
+impl<const D: usize> History<D> {
+    pub(super) fn is_empty(&self) -> bool {
+        self.order.is_empty()
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.order.clear();
+    }
+
+    /// Remembers a step, unless it teaches nothing; of more than `memory` pairs the oldest is forgotten.
+    pub(super) fn remember(&mut self, taken: Taken<'_, D>, memory: usize) {
+        let slot = if self.order.len() >= memory.clamp(1, MOST_PAIRS) {
+            self.order.pop_front().unwrap_or(0)
+        } else {
+            (0..MOST_PAIRS)
+                .find(|slot| !self.order.contains(slot))
+                .unwrap_or(0)
+        };
+        if slot >= self.pairs.len() {
+            self.pairs.resize_with(slot + 1, Pair::default);
+        }
+        let Pair { step, change } = &mut self.pairs[slot];
+        let difference = |out: &mut Vec<[f32; D]>, a: &[[f64; D]], b: &[[f64; D]]| {
+            out.resize(a.len(), [0.0; D]);
+            (out.par_iter_mut().zip(a).zip(b).with_min_len(BLOCK)).for_each(|((out, a), b)| {
+                *out = std::array::from_fn(|k| (a[k] - b[k]) as f32);
+            });
+        };
+        difference(step, taken.to, taken.from);
+        difference(change, taken.force_before, taken.force);
+        self.order.push_back(slot);
+        let rows = self.rows(slot, taken.force);
+        let (s, y) = (2 * slot, 2 * slot + 1);
+        for (place, &other) in self.order.iter().enumerate() {
+            for part in 0..2 {
+                let row = rows[2 * place + part];
+                for (own, product) in [s, y].into_iter().zip(row) {
+                    self.products[own][2 * other + part] = product;
+                    self.products[2 * other + part][own] = product;
+                }
+                self.with_force[2 * other + part] = row[2];
+            }
+        }
+        let size = (self.products[s][s] * self.products[y][y]).sqrt();
+        if self.products[s][y].is_nan() || self.products[s][y] <= FLAT * size {
+            self.order.pop_back();
+        }
+    }
+
+    /// The products of every vector, in the order of the pairs, with the step and the change at `slot` and the force.
+    fn rows(&self, slot: usize, force: &[[f64; D]]) -> Vec<[f64; ROWS]> {
+        let newest = &self.pairs[slot];
+        let of_block = |block: usize| -> Vec<[f64; ROWS]> {
+            let range = block * BLOCK..((block + 1) * BLOCK).min(force.len());
+            let (step, change) = (&newest.step[range.clone()], &newest.change[range.clone()]);
+            let force = &force[range.clone()];
+            let mut rows = Vec::with_capacity(2 * self.order.len());
+            for &other in &self.order {
+                let Pair { step: s, change: y } = &self.pairs[other];
+                for vector in [&s[range.clone()], &y[range.clone()]] {
+                    let mut row = [0.0; ROWS];
+                    for (((v, s), y), f) in vector.iter().zip(step).zip(change).zip(force) {
+                        for k in 0..D {
+                            let v = f64::from(v[k]);
+                            row[0] += v * f64::from(s[k]);
+                            row[1] += v * f64::from(y[k]);
+                            row[2] += v * f[k];
+                        }
+                    }
+                    rows.push(row);
+                }
+            }
+            rows
+        };
+        let blocks: Vec<Vec<[f64; ROWS]>> = (0..force.len().div_ceil(BLOCK))
+            .into_par_iter()
+            .map(of_block)
+            .collect();
+        // One block after the other: the same bits for any number of threads.
+        let mut sum = vec![[0.0; ROWS]; 2 * self.order.len()];
+        for block in blocks {
+            for (sum, row) in sum.iter_mut().zip(block) {
+                for (sum, row) in sum.iter_mut().zip(row) {
+                    *sum += row;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Writes the inverse Hessian as remembered, times the force that came with the last pair; `first` is what stands
+    /// for it while nothing is known.
+    pub(super) fn direction(&self, force: &[[f64; D]], first: f64, out: &mut Vec<[f64; D]>) {
+        let (weights, of_force) = self.weights(first);
+        let vectors: Vec<(&[[f32; D]], f64)> = (self.order.iter())
+            .flat_map(|&p| {
+                let Pair { step, change } = &self.pairs[p];
+                [
+                    (&step[..], weights[2 * p]),
+                    (&change[..], weights[2 * p + 1]),
+                ]
+            })
+            .collect();
+        out.resize(force.len(), [0.0; D]);
+        out.par_chunks_mut(BLOCK)
+            .enumerate()
+            .for_each(|(block, out)| {
+                let range = block * BLOCK..block * BLOCK + out.len();
+                for (out, f) in out.iter_mut().zip(&force[range.clone()]) {
+                    *out = f.map(|f| of_force * f);
+                }
+                for &(vector, weight) in &vectors {
+                    for (out, v) in out.iter_mut().zip(&vector[range.clone()]) {
+                        for k in 0..D {
+                            out[k] += weight * f64::from(v[k]);
+                        }
+                    }
+                }
+            });
+    }
+
+    /// The two-loop recursion on coefficients: those of the vectors, and of the force.
+    fn weights(&self, first: f64) -> ([f64; 2 * MOST_PAIRS], f64) {
+        let mut weights = [0.0; 2 * MOST_PAIRS];
+        let mut of_force = 1.0;
+        let product = |vector: usize, weights: &[f64; 2 * MOST_PAIRS], of_force: f64| -> f64 {
+            let others = self.order.iter().flat_map(|&p| [2 * p, 2 * p + 1]);
+            of_force * self.with_force[vector]
+                + others
+                    .map(|other| weights[other] * self.products[vector][other])
+                    .sum::<f64>()
+        };
+        let mut back = [0.0; MOST_PAIRS];
+        for &p in self.order.iter().rev() {
+            let (s, y) = (2 * p, 2 * p + 1);
+            back[p] = product(s, &weights, of_force) / self.products[s][y];
+            weights[y] -= back[p];
+        }
+        let scale = match self.order.back() {
+            Some(&p) => self.products[2 * p][2 * p + 1] / self.products[2 * p + 1][2 * p + 1],
+            None => first,
+        };
+        for weight in &mut weights {
+            *weight *= scale;
+        }
+        of_force *= scale;
+        for &p in &self.order {
+            let (s, y) = (2 * p, 2 * p + 1);
+            let again = product(y, &weights, of_force) / self.products[s][y];
+            weights[s] += back[p] - again;
+        }
+        (weights, of_force)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sphpack_neighbors::point;
+
+    /// On a quadratic bowl the direction satisfies the newest secant equation, and many pairs find its bottom.
+    #[test]
+    fn the_newest_step_is_remembered() {
+        let stiffness = |i: usize, k: usize| 1.0 + (i * 3 + k) as f64 * 0.37;
+        let force_at = |x: &[[f64; 3]]| -> Vec<[f64; 3]> {
+            (x.iter().enumerate())
+                .map(|(i, x)| std::array::from_fn(|k| -stiffness(i, k) * x[k]))
+                .collect()
+        };
+        let mut history = History::<3>::default();
+        let mut x = vec![[1.0, -2.0, 0.5], [0.3, 0.7, -1.1]];
+        let mut direction = Vec::new();
+        for round in 0..12 {
+            let force = force_at(&x);
+            history.direction(&force, 0.1, &mut direction);
+            let slope: f64 = (0..2).map(|i| point::dot(direction[i], force[i])).sum();
+            assert!(slope > 0.0, "{round}");
+            // The exact minimum along the direction.
+            let bend: f64 = (0..2)
+                .flat_map(|i| (0..3).map(move |k| (i, k)))
+                .map(|(i, k)| stiffness(i, k) * direction[i][k] * direction[i][k])
+                .sum();
+            let to: Vec<[f64; 3]> = (x.iter().zip(&direction))
+                .map(|(x, d)| point::add_scaled(*x, slope / bend, *d))
+                .collect();
+            let after = force_at(&to);
+            let taken = Taken {
+                from: &x,
+                to: &to,
+                force_before: &force,
+                force: &after,
+            };
+            history.remember(taken, 8);
+            // H y = s for the newest pair.
+            if !history.is_empty() {
+                let change: Vec<[f64; 3]> = (force.iter().zip(&after))
+                    .map(|(a, b)| point::sub(*a, *b))
+                    .collect();
+                let mut asked = history.clone();
+                let newest = asked.order[asked.order.len() - 1];
+                asked.with_force = asked.products[2 * newest + 1];
+                let mut found = Vec::new();
+                asked.direction(&change, 0.1, &mut found);
+                for i in 0..2 {
+                    let step = point::sub(to[i], x[i]);
+                    assert!(
+                        point::distance(found[i], step) < 1e-5 * (1.0 + point::norm(step)),
+                        "{round}"
+                    );
+                }
+            }
+            x = to;
+        }
+        let left = x.iter().map(|x| point::norm(*x)).fold(0.0, f64::max);
+        assert!(left < 1e-6, "{left}");
+    }
+}
