@@ -7,11 +7,15 @@ use sphpack_neighbors::point;
 
 use super::LevelSet;
 use super::crossings::{Crossing, MARGIN};
-use super::fit;
+use super::fit::Fit;
 use super::patches::Case;
 
 /// No crossing.
 pub(super) const NONE: u32 = u32::MAX;
+
+/// How far beyond its cell a point may be, in cells: a sharp edge that reaches through a face without a node inside it has
+/// no other cell.
+const BEYOND: f64 = 0.75;
 
 /// A cell that the surface passes.
 #[derive(Debug, Clone)]
@@ -74,7 +78,7 @@ impl Cells {
         let points = cells
             .par_iter()
             .flat_map_iter(|cell| {
-                (0..cell.case.count).map(move |patch| cell.point(set, crossings, patch))
+                (0..cell.case.count).map(move |patch| cell.point(set, crossings, patch, BEYOND))
             })
             .collect();
         Self {
@@ -82,6 +86,32 @@ impl Cells {
             around,
             points,
         }
+    }
+}
+
+impl Cells {
+    /// The points; those of cells all of whose crossings are careful are within them, and where there are several
+    /// patches in the middles of the crossings, so that the patches keep apart.
+    pub(super) fn careful_points(
+        &self,
+        set: &LevelSet<3>,
+        crossings: &[Crossing],
+        careful: &[bool],
+    ) -> Vec<[f64; 3]> {
+        let mut points = self.points.clone();
+        for cell in &self.cells {
+            let mut own = cell.crossings.iter().filter(|&&n| n != NONE);
+            if own.all(|&n| careful[n as usize]) {
+                for patch in 0..cell.case.count {
+                    points[cell.first as usize + usize::from(patch)] = if cell.case.count > 1 {
+                        cell.around(crossings, patch).1
+                    } else {
+                        cell.point(set, crossings, patch, -MARGIN)
+                    };
+                }
+            }
+        }
+        points
     }
 }
 
@@ -94,30 +124,28 @@ fn code(set: &LevelSet<3>, node: [i32; 3]) -> u8 {
 }
 
 impl Cell {
-    /// The point of a patch: where the planes of its crossings meet best, in the cell; the middle of the crossings
-    /// where the cell has several patches, so that these keep apart.
-    fn point(&self, set: &LevelSet<3>, crossings: &[Crossing], patch: u8) -> [f64; 3] {
+    /// The crossings of a patch, and their middle.
+    fn around<'a>(&self, crossings: &'a [Crossing], patch: u8) -> (Vec<&'a Crossing>, [f64; 3]) {
         let own: Vec<&Crossing> = (0..12)
             .filter(|&e| self.case.patch[e] == patch)
             .map(|e| &crossings[self.crossings[e] as usize])
             .collect();
         let sum = own.iter().fold([0.0; 3], |s, c| point::add(s, c.point));
         let middle = point::scale(sum, 1.0 / own.len() as f64);
-        if self.case.count > 1 {
-            return middle;
-        }
+        (own, middle)
+    }
+
+    /// The point of a patch: where the planes of its crossings meet best, at most so far `beyond` the cell.
+    fn point(&self, set: &LevelSet<3>, crossings: &[Crossing], patch: u8, beyond: f64) -> [f64; 3] {
+        let (own, middle) = self.around(crossings, patch);
         let lower = set.blocks.place(self.node);
-        let near = MARGIN * set.cell();
-        let far = (1.0 - MARGIN) * set.cell();
-        let is_within = |x: &[f64; 3]| (0..3).all(|k| (near..=far).contains(&(x[k] - lower[k])));
+        let clamp = |x: [f64; 3]| {
+            std::array::from_fn(|k| {
+                let part = (x[k] - lower[k]) / set.cell();
+                lower[k] + part.clamp(-beyond, 1.0 + beyond) * set.cell()
+            })
+        };
         let planes: Vec<([f64; 3], f64)> = own.iter().map(|c| (c.normal, c.offset)).collect();
-        let mut found = middle;
-        for candidate in fit::candidates(&planes, middle) {
-            found = candidate;
-            if is_within(&found) {
-                return found;
-            }
-        }
-        std::array::from_fn(|k| found[k].clamp(lower[k] + near, lower[k] + far))
+        Fit::new(&planes, middle).within(clamp, MARGIN * set.cell())
     }
 }

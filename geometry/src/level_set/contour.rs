@@ -1,28 +1,39 @@
 //! The zero set as a closed mesh: dual contouring, free of self-intersections.
 //!
 //! One point per patch of the surface in each cell, where the planes that touch it meet, and around every crossed edge of
-//! the grid a polygon of the points of its four cells (Ju, Losasso, Schaefer, Warren, "Dual contouring of Hermite data",
-//! ACM TOG 21, 2002). Where a side of that polygon would not pass through the face that its two cells share, a point
-//! on that face is put in, and where no diagonal keeps within reach of the edge the polygon becomes a fan around the
-//! crossing (after Ju and Udeshi, "Intersection-free contouring on an octree grid", Pacific Graphics 2006): then every
-//! triangle keeps to the cells and edges it belongs to. Faces that the surface crosses twice always have their own
-//! points, so that every edge of the mesh has two triangles.
+//! the grid a polygon of the points of its four cells, cut along the diagonal that is nearer to the surface (Ju, Losasso,
+//! Schaefer, Warren, "Dual contouring of Hermite data", ACM TOG 21, 2002). Faces that the surface crosses twice have
+//! points of their own, so that every edge of the mesh has two triangles.
+//!
+//! Where triangles cross, which happens where points were held back by the sides of their cells, the polygons around
+//! are made anew with care (after Ju and Udeshi, "Intersection-free contouring on an octree grid", Pacific Graphics 2006):
+//! where a side of a polygon would not pass through the face that its two cells share, a point on that face is put in, and
+//! where no diagonal keeps within reach of the edge the polygon becomes a fan around the crossing. Then every triangle
+//! keeps to the cells and edges it belongs to, and none can cross another.
 
 use std::collections::HashMap;
 
 use sphpack_neighbors::point;
 
 use super::LevelSet;
-use super::cells::{Cells, PLACES};
+use super::cells::{Cells, NONE, PLACES};
 use super::crossings::{Crossing, MARGIN};
-use crate::{GeometryError, Mesh};
+use super::fit::Fit;
+use crate::{GeometryError, Mesh, Soup};
+
+/// Rounds in which polygons around crossing triangles are made anew, before all are.
+const ROUNDS: usize = 8;
+
+/// Of two diagonals that pass each other nearer than this, in cells, either will do.
+const FLAT: f64 = 0.01;
 
 impl LevelSet<3> {
-    /// The zero set as a closed mesh, `None` where nothing is inside. Sharp edges stay sharp where the surface or the
-    /// Boolean has them, by planes that touch the surface as it is, not as the grid sees it; elsewhere the mesh is
-    /// within some cell² / 8R of a surface that bends by radius R, and its volume within some cell² / 2R² of that of a
-    /// ball. No two triangles cross. A little over two triangles per cell² of the surface; a query or two of the
-    /// surface per triangle, in parallel.
+    /// The zero set as a closed mesh, `None` where nothing is inside. Sharp edges are kept where the surface or the
+    /// Boolean has them, by planes that touch the surface as it is, not as the grid sees it: exactly where faces are
+    /// flat, with small folds here and there along curved ones; elsewhere the mesh is
+    /// within some 0.4 cell² / R of a surface that bends by radius R, and a ball's volume within 0.25 cell² / R². No two
+    /// triangles cross. A little over two triangles per cell² of the surface; a query or two of the surface per
+    /// triangle, in parallel.
     ///
     /// # Errors
     /// What [`Mesh::new`] finds: [`GeometryError::NoVolume`] where next to nothing is inside.
@@ -32,18 +43,46 @@ impl LevelSet<3> {
         }
         let crossings = self.crossings();
         let cells = Cells::new(self, &crossings);
-        let mut contour = Contour {
-            set: self,
-            crossings: &crossings,
-            vertices: cells.points.clone(),
-            cells: &cells,
-            on_faces: HashMap::new(),
-            triangles: Vec::with_capacity(2 * crossings.len()),
-        };
-        for n in 0..crossings.len() {
-            contour.surround(n);
+        let mut careful = vec![false; crossings.len()];
+        for round in 0.. {
+            let mut contour = Contour {
+                set: self,
+                crossings: &crossings,
+                cells: &cells,
+                careful: &careful,
+                vertices: cells.careful_points(self, &crossings, &careful),
+                on_faces: HashMap::new(),
+                triangles: Vec::with_capacity(2 * crossings.len()),
+                around: Vec::with_capacity(2 * crossings.len()),
+            };
+            for n in 0..crossings.len() {
+                contour.surround(n);
+            }
+            let Contour {
+                vertices,
+                triangles,
+                around,
+                ..
+            } = contour;
+            let soup = Soup::new(vertices, triangles)?;
+            let bad = soup.crossing_triangles();
+            if bad.is_empty() || careful.iter().all(|&c| c) {
+                return Mesh::new(soup.vertices, soup.triangles).map(Some);
+            }
+            if round >= ROUNDS {
+                careful.fill(true);
+            }
+            for t in bad {
+                for cell in cells.around[around[t as usize] as usize] {
+                    for &n in &cells.cells[cell as usize].crossings {
+                        if n != NONE {
+                            careful[n as usize] = true;
+                        }
+                    }
+                }
+            }
         }
-        Mesh::new(contour.vertices, contour.triangles).map(Some)
+        Ok(None)
     }
 }
 
@@ -51,10 +90,14 @@ struct Contour<'a> {
     set: &'a LevelSet<3>,
     crossings: &'a [Crossing],
     cells: &'a Cells,
+    /// Per crossing, whether its polygon must keep within reach of it.
+    careful: &'a [bool],
     vertices: Vec<[f64; 3]>,
     /// Points on faces, by the two crossings that they lie between.
     on_faces: HashMap<[u32; 2], u32>,
     triangles: Vec<[u32; 3]>,
+    /// Per triangle, the crossing it belongs to.
+    around: Vec<u32>,
 }
 
 impl Contour<'_> {
@@ -67,21 +110,23 @@ impl Contour<'_> {
             let [u, v] = PLACES[i];
             cell.first + u32::from(cell.case.patch[4 * k + u + 2 * v])
         });
-        // As seen from the edge's lower end, in cells: along the two other axes, then along the edge.
-        let start = self.set.blocks.place(crossing.node);
-        let seen = corners.map(|v| {
-            let away = point::sub(self.vertices[v as usize], start);
-            [(k + 1) % 3, (k + 2) % 3, k].map(|a| away[a] / self.set.cell())
-        });
         let mut ring = Vec::with_capacity(8);
         for i in 0..4 {
             ring.push(corners[i]);
             ring.extend(self.on_face(n, i, &corners));
         }
-        let diagonal = if ring.len() == 4 {
-            diagonal(&seen, crossing.part)
-        } else {
-            None
+        let diagonal = match (ring.len(), self.careful[n]) {
+            (4, true) => {
+                // As seen from the edge's lower end, in cells: along the two other axes, then along the edge.
+                let start = self.set.blocks.place(crossing.node);
+                let seen = corners.map(|v| {
+                    let away = point::sub(self.vertices[v as usize], start);
+                    [(k + 1) % 3, (k + 2) % 3, k].map(|a| away[a] / self.set.cell())
+                });
+                careful_diagonal(&seen, crossing.part)
+            }
+            (4, false) => Some(self.diagonal(&corners)),
+            _ => None,
         };
         let own = self.triangles.len();
         if let Some(first) = diagonal {
@@ -100,6 +145,24 @@ impl Contour<'_> {
                 t.swap(1, 2);
             }
         }
+        self.around.resize(self.triangles.len(), n as u32);
+    }
+
+    /// The corner from which the diagonal begins whose middle is nearer to the surface; of a flat polygon the shorter
+    /// one.
+    fn diagonal(&self, corners: &[u32; 4]) -> usize {
+        let at = corners.map(|v| self.vertices[v as usize]);
+        let both = [0, 1].map(|i| (at[i], at[i + 2]));
+        let middles = both.map(|(p, q)| point::scale(point::add(p, q), 0.5));
+        let [a, b] = both.map(|(p, q)| point::sub(q, p));
+        let height = point::unit(point::cross(a, b))
+            .map_or(0.0, |up| point::dot(up, point::sub(middles[1], middles[0])));
+        let [first, second] = if height.abs() > FLAT * self.set.cell() {
+            middles.map(|p| self.set.field.at(p).0.abs())
+        } else {
+            [a, b].map(point::norm_squared)
+        };
+        usize::from(second < first)
     }
 
     /// The point on the face between corners `i` and `i + 1` of the polygon around crossing `n`, if one is needed. What
@@ -114,9 +177,15 @@ impl Contour<'_> {
         let face = 2 * across + PLACES[i][other];
         let partner = a.crossings[usize::from(a.case.partner[face][4 * axis + u + 2 * v])];
         let key = [(n as u32).min(partner), (n as u32).max(partner)];
-        if a.case.is_twofold[face] || a.case.count > 1 || b.case.count > 1 {
-            let [p, q] = key.map(|n| self.crossings[n as usize].point);
-            return Some(self.face_point(key, point::scale(point::add(p, q), 0.5)));
+        let [own, mate] = key.map(|n| &self.crossings[n as usize]);
+        let middle = point::scale(point::add(own.point, mate.point), 0.5);
+        let is_twofold = a.case.is_twofold[face];
+        let is_careful = self.careful[n] || self.careful[partner as usize];
+        if is_careful && (is_twofold || a.case.count > 1 || b.case.count > 1) {
+            return Some(self.face_point(key, || middle));
+        }
+        if !is_careful && !is_twofold {
+            return None;
         }
         // From the lower cell to the upper, whose lowest node is the face's too.
         let is_up = PLACES[i][other] == 1;
@@ -126,25 +195,29 @@ impl Contour<'_> {
             (corners[next], corners[i], a)
         };
         let [p, q] = [from, to].map(|v| self.vertices[v as usize]);
-        let (start, cell) = (self.set.blocks.place(upper.node), self.set.cell());
+        let (set, start) = (self.set, self.set.blocks.place(upper.node));
+        let clamp = |x: [f64; 3]| {
+            std::array::from_fn(|k| {
+                let part = (x[k] - start[k]) / set.cell();
+                let kept = part.clamp(MARGIN, 1.0 - MARGIN);
+                start[k] + if k == across { 0.0 } else { kept * set.cell() }
+            })
+        };
         let share = (start[across] - p[across]) / (q[across] - p[across]);
-        let mut is_on_face = true;
-        let place = std::array::from_fn(|k| {
-            if k == across {
-                return start[k];
-            }
-            let passed = (p[k] + share * (q[k] - p[k]) - start[k]) / cell;
-            let kept = passed.clamp(MARGIN, 1.0 - MARGIN);
-            is_on_face &= kept == passed;
-            start[k] + kept * cell
-        });
-        (!is_on_face).then(|| self.face_point(key, place))
+        let passed = point::add_scaled(p, share, point::sub(q, p));
+        if !is_twofold && point::distance(clamp(passed), passed) <= 1e-9 * set.cell() {
+            return None;
+        }
+        Some(self.face_point(key, || {
+            let planes = [own, mate].map(|c| (c.normal, c.offset));
+            Fit::new(&planes, middle).within(clamp, MARGIN * set.cell())
+        }))
     }
 
-    fn face_point(&mut self, key: [u32; 2], place: [f64; 3]) -> u32 {
+    fn face_point(&mut self, key: [u32; 2], place: impl FnOnce() -> [f64; 3]) -> u32 {
         let vertices = &mut self.vertices;
         *self.on_faces.entry(key).or_insert_with(|| {
-            vertices.push(place);
+            vertices.push(place());
             vertices.len() as u32 - 1
         })
     }
@@ -152,7 +225,7 @@ impl Contour<'_> {
 
 /// The corner from which a diagonal cuts the polygon around an edge into two triangles whose planes meet the edge; of
 /// two such the one that passes it nearer to `part`. Corners as seen from the edge's lower end, in cells.
-fn diagonal(seen: &[[f64; 3]; 4], part: f64) -> Option<usize> {
+fn careful_diagonal(seen: &[[f64; 3]; 4], part: f64) -> Option<usize> {
     let cross = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
     // Where the plane of three corners meets the edge; nowhere if they turn the wrong way, because the diagonal passes
     // outside the polygon.

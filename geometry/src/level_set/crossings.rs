@@ -12,7 +12,7 @@ pub(super) const MARGIN: f64 = 1e-3;
 const NEAR: f64 = 0.02;
 
 /// Places tried on an edge, at most.
-const TRIES: usize = 5;
+const TRIES: usize = 6;
 
 /// An edge of the grid whose ends have different signs.
 #[derive(Debug, Clone, Copy)]
@@ -57,6 +57,7 @@ impl LevelSet<3> {
             .collect()
     }
 
+    /// The crossing of an edge whose ends have these `values`.
     fn crossing(&self, node: [i32; 3], axis: usize, values: [f64; 2]) -> Crossing {
         let start = self.blocks.place(node);
         let at = |part: f64| {
@@ -69,9 +70,9 @@ impl LevelSet<3> {
         let mut tries = 0;
         loop {
             let [(a, fa), (b, fb)] = ends;
-            let between = (fa / (fa - fb)).clamp(MARGIN, 1.0 - MARGIN);
-            let between = if tries < TRIES / 2 { between } else { 0.5 };
-            let part = (a + between * (b - a)).clamp(MARGIN, 1.0 - MARGIN);
+            // By the values, and every other time by halves, lest one end stays for ever.
+            let share = if tries % 2 == 0 { fa / (fa - fb) } else { 0.5 };
+            let part = (a + share * (b - a)).clamp(MARGIN, 1.0 - MARGIN);
             let point = at(part);
             let (value, normal) = self.field.at(point);
             tries += 1;

@@ -6,36 +6,69 @@ use sphpack_neighbors::point;
 /// a turn of some 15° the surface is smooth.
 const SMOOTH: f64 = 0.02;
 
-/// The points with the least sum of squared distances from planes, of those the nearest to `middle`; with as many
-/// directions decided by the planes as they tell, then with fewer. Planes are (unit normal, normal · x).
-pub(super) fn candidates(
-    planes: &[([f64; 3], f64)],
+/// Steps between the box and the nearest points, at most.
+const STEPS: usize = 30;
+
+/// The points with the least sum of squared distances from planes: one, a line, or a plane.
+#[derive(Debug)]
+pub(super) struct Fit {
     middle: [f64; 3],
-) -> impl Iterator<Item = [f64; 3]> {
-    let mut matrix = [[0.0; 3]; 3];
-    let mut right = [0.0; 3];
-    for (normal, offset) in planes {
-        let height = offset - point::dot(*normal, middle);
-        for i in 0..3 {
-            for j in 0..3 {
-                matrix[i][j] += normal[i] * normal[j];
+    /// Directions that the planes decide, the best decided first, and how far along them the points are from the middle.
+    axes: Vec<([f64; 3], f64)>,
+}
+
+impl Fit {
+    /// Of planes (unit normal, normal · x), around `middle`.
+    pub(super) fn new(planes: &[([f64; 3], f64)], middle: [f64; 3]) -> Self {
+        let mut matrix = [[0.0; 3]; 3];
+        let mut right = [0.0; 3];
+        for (normal, offset) in planes {
+            let height = offset - point::dot(*normal, middle);
+            for i in 0..3 {
+                for j in 0..3 {
+                    matrix[i][j] += normal[i] * normal[j];
+                }
+                right[i] += normal[i] * height;
             }
-            right[i] += normal[i] * height;
+        }
+        let mut axes = principal(matrix);
+        axes.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let least = SMOOTH * planes.len() as f64;
+        Self {
+            middle,
+            axes: axes
+                .into_iter()
+                .filter(|axis| axis.0 > least)
+                .map(|(weight, axis)| (axis, point::dot(axis, right) / weight))
+                .collect(),
         }
     }
-    let mut axes = principal(matrix);
-    axes.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let least = SMOOTH * planes.len() as f64;
-    let decided = axes.iter().filter(|axis| axis.0 > least).count().max(1);
-    (1..=decided).rev().map(move |count| {
-        let mut x = middle;
-        for &(weight, axis) in &axes[..count] {
-            if weight > 0.0 {
-                x = point::add_scaled(x, point::dot(axis, right) / weight, axis);
+
+    /// The nearest point to `x` of those decided by the first `count` directions.
+    fn nearest(&self, count: usize, x: [f64; 3]) -> [f64; 3] {
+        let away = point::sub(x, self.middle);
+        self.axes[..count].iter().fold(x, |y, &(axis, place)| {
+            point::add_scaled(y, place - point::dot(axis, away), axis)
+        })
+    }
+
+    /// Such a point in a box that `clamp` leads into, near the middle, to `tolerance`: of all directions that are
+    /// decided if there is one, else of fewer.
+    pub(super) fn within(&self, clamp: impl Fn([f64; 3]) -> [f64; 3], tolerance: f64) -> [f64; 3] {
+        let mut found = clamp(self.middle);
+        for count in (1..=self.axes.len()).rev() {
+            let mut x = self.middle;
+            for _ in 0..STEPS {
+                let on = self.nearest(count, x);
+                x = clamp(on);
+                if point::distance(x, on) <= tolerance {
+                    return x;
+                }
             }
+            found = x;
         }
-        x
-    })
+        found
+    }
 }
 
 /// Eigenvalues and unit eigenvectors of a symmetric matrix, by Jacobi's rotations.
@@ -83,12 +116,23 @@ mod tests {
             tip in [-1.0..1.0, -1.0..1.0, -1.0..1.0],
         ) {
             let planes: Vec<_> = normals.iter().map(|&n| (n, point::dot(n, tip))).collect();
-            let found: Vec<_> = candidates(&planes, [0.0; 3]).collect();
-            // Where all directions are decided that is the point, else it is on all planes but nearly parallel ones.
-            if found.len() == 3 {
-                prop_assert!(point::distance(found[0], tip) < 1e-9, "{:?}", found);
+            let fit = Fit::new(&planes, [0.0; 3]);
+            let found = fit.within(|x| x, 1e-9);
+            let bound = point::norm(tip) * (1.0 + 1e-9);
+            prop_assert!(point::norm(found) <= bound, "{:?}", found);
+            prop_assert!(fit.axes.len() < 3 || point::distance(found, tip) < 1e-9, "{:?}", found);
+            // On a line or plane that passes a box, a point in the box.
+            if fit.axes.len() < 3 {
+                let corner = point::add_scaled([0.0; 3], 2.0, tip);
+                let clamp = |x: [f64; 3]| std::array::from_fn(|k| {
+                    let (a, b) = (tip[k].min(corner[k]), tip[k].max(corner[k]));
+                    x[k].clamp(a, b)
+                });
+                let found = fit.within(clamp, 1e-3);
+                let on = fit.nearest(fit.axes.len(), found);
+                prop_assert!(point::distance(clamp(found), found) < 1e-12);
+                prop_assert!(point::distance(on, found) < 0.3, "{:?} {:?}", on, found);
             }
-            prop_assert!(point::norm(found[0]) < point::norm(tip) * (1.0 + 1e-9) || found.len() == 3);
         }
 
         #[test]
