@@ -202,7 +202,7 @@ pub(super) fn shares<const D: usize>(
         .map(|b| {
             let outer = bodies[b].surface.as_ref();
             (0..b)
-                .filter(|&a| is_inside(bodies[a].surface.as_ref(), outer))
+                .filter(|&a| is_inside(bodies[a].surface.as_ref(), outer, problem.spacing))
                 .collect()
         })
         .collect();
@@ -247,9 +247,15 @@ pub(super) fn shares<const D: usize>(
     }
 }
 
-/// Whether the whole of `inner` is in `outer`, if their surfaces do not meet.
-fn is_inside<const D: usize>(inner: &dyn Surface<D>, outer: &dyn Surface<D>) -> bool {
-    outer.inside(inner.closest(inner.bounds().center()).point)
+/// How far behind a body's surface it is asked whether another holds it, in ∆s: more than what bodies that touch may be
+/// in each other, so that the common side of two is in neither's way.
+const BEHIND_OVER_SPACING: f64 = 0.2;
+
+/// Whether the whole of `inner` is in `outer`, if their surfaces do not pass through each other.
+fn is_inside<const D: usize>(inner: &dyn Surface<D>, outer: &dyn Surface<D>, spacing: f64) -> bool {
+    let at = inner.closest(inner.bounds().center());
+    let behind = point::add_scaled(at.point, -BEHIND_OVER_SPACING * spacing, at.normal);
+    outer.inside(behind)
 }
 
 /// The region of every site that is kept, `None` for those left out: in every region the deepest are kept. Fewer than
