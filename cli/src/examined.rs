@@ -174,7 +174,12 @@ impl Examined {
         let body = match what.mend {
             Mend::AsPacking => soup.body_knowing(&report),
             Mend::FillHoles(most) => soup.repaired(HoleLimit::Across(most)).body(),
-            Mend::Wrap(cell) => soup.wrapped(cell),
+            Mend::Wrap(cell) => match soup.wrapped(cell) {
+                Err(e @ GeometryError::BadParameter { .. }) => {
+                    return Err(Error::Usage(format!("--wrap {cell} does not work: {e}")));
+                }
+                wrapped => wrapped,
+            },
         };
         examined.mesh = Some(report.into());
         match body {

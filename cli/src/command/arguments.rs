@@ -123,12 +123,7 @@ pub(super) struct CheckArguments {
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     pub(super) fill_holes: Option<f64>,
     /// With --repair: wrap the triangles in a new, closed mesh, on a grid with cells of this size
-    #[arg(
-        long,
-        value_name = "LENGTH",
-        allow_negative_numbers = true,
-        conflicts_with = "fill_holes"
-    )]
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     pub(super) wrap: Option<f64>,
     /// Say what is thinner than this particle spacing
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]

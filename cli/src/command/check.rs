@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use sphpack_geometry::{Mesh, Soup};
+use sphpack_geometry::{HoleLimit, Mesh, Soup};
 
 use super::arguments::CheckArguments;
 use super::{outputs, say};
@@ -38,6 +38,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
                 "{name} goes with --repair OUT.stl: the mended mesh must go somewhere"
             )));
         }
+    }
+    if arguments.wrap.is_some() && arguments.fill_holes.is_some() {
+        return Err(Error::Usage(
+            "--wrap closes all holes; leave out --fill-holes".into(),
+        ));
     }
     for (path, wanted, words) in [
         (&arguments.repair, "stl", "the mended mesh is an STL file"),
@@ -104,8 +109,10 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
 fn as_in_a_file(mesh: &Mesh) -> Result<Soup, sphpack_geometry::GeometryError> {
     let place = |v: u32| mesh.vertices()[v as usize].map(|x| f64::from(x as f32));
     let corners: Vec<[[f64; 3]; 3]> = mesh.triangles().iter().map(|t| t.map(place)).collect();
-    let soup = Soup::from_loose(&corners)?;
-    soup.body()?;
+    // Corners that have become one make triangles that are none.
+    let mended = Soup::from_loose(&corners)?.repaired(HoleLimit::Small);
+    let soup = mended.soup.clone();
+    mended.body()?;
     Ok(soup)
 }
 

@@ -130,7 +130,10 @@ fn what_makes_no_sense() {
             &["--wrap", "1e-9", "--repair", "out.stl"],
             "cell = 0.000000001",
         ),
-        (&["--wrap", "1", "--fill-holes", "1"], "cannot be used with"),
+        (
+            &["--wrap", "1", "--fill-holes", "1", "--repair", "out.stl"],
+            "leave out --fill-holes",
+        ),
         (&["--repair", "out.obj"], "name it .stl"),
         (&["--repair", "cube.stl", "--force"], "input"),
         (&["--report", "out.txt"], "name it .json"),

@@ -81,7 +81,7 @@ impl Case {
     /// The case of the signs in `code`.
     pub(super) fn of(code: u8) -> &'static Self {
         static ALL: OnceLock<Vec<Case>> = OnceLock::new();
-        let all = ALL.get_or_init(|| (0..=u8::MAX).map(Case::new).collect());
+        let all = ALL.get_or_init(|| (0..=u8::MAX).map(Self::new).collect());
         &all[usize::from(code)]
     }
 }

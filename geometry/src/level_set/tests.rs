@@ -1,6 +1,6 @@
 //! Level sets against formulas, and their meshes against the check of meshes.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
 use sphpack_neighbors::point;
@@ -182,20 +182,15 @@ fn two_balls() {
         let both = clean(&first.intersection(&second).unwrap()).volume();
         let whole = clean(&first.union(&second).unwrap()).volume();
         let left = clean(&first.minus(&second).unwrap());
-        // What particles are packed in: an inset, its volume by a fine grid of closest points.
-        let (depth, steps) = (0.2, 60_i32);
+        // What particles are packed on: the surface two cells inside. A ball less two cells, without one of two more.
+        let depth = 2.0 * cell;
+        let (r, s) = (1.0 - depth, 0.8 + depth);
+        let cap = |r: f64, s: f64| TAU * r * (r - (d * d + r * r - s * s) / (2.0 * d));
+        let area = 2.0 * TAU * r * r - cap(r, s) + cap(s, r);
+        let volume = 2.0 / 3.0 * TAU * r.powi(3) - lens(r, s, d);
         let inset = left.inset(depth).unwrap();
-        let at = |n: i32| -1.0 + 2.0 * (f64::from(n) + 0.5) / f64::from(steps);
-        let is_deep = |p: [f64; 3]| {
-            point::norm(p) < 1.0 - depth
-                && point::distance(p, [0.9, 0.5, 0.4_f64.sqrt() * 0.614]) > 0.8 + depth
-        };
-        let count = (0..steps.pow(3))
-            .filter(|n| is_deep([at(n % steps), at(n / steps % steps), at(n / steps / steps)]))
-            .count();
-        let exact_inset = count as f64 * (2.0 / f64::from(steps)).powi(3);
-        let off = inset.volume() / exact_inset - 1.0;
-        assert!(off.abs() < 0.02, "inset {off}");
+        let off = [inset.measure() / area - 1.0, inset.volume() / volume - 1.0];
+        assert!(off.iter().all(|x| x.abs() < 0.02), "inset {off:?}");
         let left = left.volume();
         [both / exact, whole / (a + b - exact), left / (a - exact)].map(|x| x - 1.0)
     });
