@@ -129,8 +129,20 @@ pub struct Thin {
 pub struct Examine {
     /// ∆s, to find what is thinner.
     pub spacing: Option<f64>,
-    /// Holes up to this size are closed, scene units; `None` closes those that cannot matter, as packing does.
-    pub fill_holes: Option<f64>,
+    /// How a mesh is mended.
+    pub mend: Mend,
+}
+
+/// How a mesh is mended.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Mend {
+    /// As packing does: holes that cannot matter are closed.
+    #[default]
+    AsPacking,
+    /// Holes up to this size are closed, scene units.
+    FillHoles(f64),
+    /// It is wrapped in a new mesh, on a grid with cells of this size, scene units.
+    Wrap(f64),
 }
 
 impl Examined {
@@ -159,9 +171,15 @@ impl Examined {
         let mut examined = Self::new(path, format, report.bounds);
         examined.measure = report.area;
         examined.volume = report.volume;
-        let body = match what.fill_holes {
-            Some(most) => soup.repaired(HoleLimit::Across(most)).body(),
-            None => soup.body_knowing(&report),
+        let body = match what.mend {
+            Mend::AsPacking => soup.body_knowing(&report),
+            Mend::FillHoles(most) => soup.repaired(HoleLimit::Across(most)).body(),
+            Mend::Wrap(cell) => match soup.wrapped(cell) {
+                Err(e @ GeometryError::BadParameter { .. }) => {
+                    return Err(Error::Usage(format!("--wrap {cell} does not work: {e}")));
+                }
+                wrapped => wrapped,
+            },
         };
         examined.mesh = Some(report.into());
         match body {

@@ -165,6 +165,10 @@ fn of_body(error: Error, scene: &Scene, body: &str) -> Error {
     }
 }
 
+fn four_digits(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
+}
+
 /// Builds the bodies and the problem, and sees whether it makes sense and fits into memory.
 pub(crate) fn prepare<const D: usize>(
     scene: &Scene,
@@ -184,7 +188,9 @@ where
                 GeometryError::InFile { path, source } => Error::Input {
                     message: match *source {
                         GeometryError::Defective { .. } => {
-                            format!("{source}. `sphpack check {path}` says more, and mends what can be mended")
+                            // Four cells to a spacing, in the units of the file.
+                            let cell = four_digits(0.25 * scene.spacing / body.scale);
+                            format!("{source}. `sphpack check {path}` says more, and mends what can be mended; `sphpack check {path} --repair OUT.stl --wrap {cell}` makes a new, closed mesh of whatever there is")
                         }
                         _ => source.to_string(),
                     },

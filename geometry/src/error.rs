@@ -155,6 +155,14 @@ pub enum GeometryError {
         "the lines where the two meshes cross do not come out as closed curves; move or turn one of them a little, or cut the body in a mesh editor"
     )]
     NotCut,
+    /// Triangles that were to be wrapped wind around nothing.
+    #[error(
+        "the triangles wind around no place of a grid with cells of {cell}; take smaller cells, or make the normals consistent in a mesh editor"
+    )]
+    NothingInside {
+        /// The size of the cells, scene units.
+        cell: f64,
+    },
     /// A mesh has no triangles, or encloses no volume.
     #[error(
         "the mesh encloses no volume ({triangles} triangles left after removing degenerate ones); export a closed surface"

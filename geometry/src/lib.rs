@@ -31,6 +31,7 @@
 //! | triangles with defects: check, mend, join | [`Soup`], [`Soup::read`], [`FastWinding`] |
 //! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
 //! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`] |
+//! | distances on a grid, and Booleans of them | [`LevelSet`] |
 //! | points: even ([`Surface::sample`]), by a weight, for thin bodies | [`sample_weighted`], [`sample_particles`], [`thickness()`] |
 //! | underneath | [`Bvh`] |
 //! | classical inside tests (000 eq. 14) | [`angle_sum`], [`winding_number`], [`crossing_number`] |
@@ -43,6 +44,7 @@
 mod bvh;
 mod error;
 mod level_inset;
+mod level_set;
 mod mesh;
 mod outline;
 mod placed;
@@ -61,6 +63,7 @@ mod winding;
 pub use bvh::Bvh;
 pub use error::GeometryError;
 pub use level_inset::LevelInset;
+pub use level_set::LevelSet;
 pub use mesh::{EDGE_DEGREES, Mesh};
 pub use outline::{
     CORNER_DEGREES, MITRE_LIMIT, Outline, angle_sum, crossing_number, winding_number,

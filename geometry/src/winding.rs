@@ -152,6 +152,21 @@ impl FastWinding {
         angle / (4.0 * PI)
     }
 
+    /// The nearest point of the triangles to `p`, and the unit normal of the triangle it is on; `None` where there are
+    /// no triangles. O(log n).
+    pub(crate) fn nearest(&self, p: [f64; 3]) -> Option<([f64; 3], [f64; 3])> {
+        let on = |i: usize| {
+            let corners = &self.corners[i];
+            triangle::place(corners, triangle::nearest(corners, p).0)
+        };
+        self.bvh
+            .nearest(p, f64::INFINITY, |i| point::distance_squared(p, on(i)))
+            .map(|(i, _)| {
+                let normal = point::unit(triangle::area_vector(&self.corners[i]));
+                (on(i), normal.unwrap_or([1.0, 0.0, 0.0]))
+            })
+    }
+
     /// The winding number at `p` by the solid angle of every triangle. O(n).
     pub fn exactly_at(&self, p: [f64; 3]) -> f64 {
         let angle: f64 = self.corners.iter().map(|t| solid_angle(t, p)).sum();

@@ -99,15 +99,18 @@ pub(super) struct PackArguments {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Of a mesh: holes, edges of more than two triangles, triangles that face the wrong way, shells inside out, shells that overlap or touch, triangles that cross, are doubled or have no area; each with a count and a place. What `sphpack pack` mends by itself (it says so): doubled and degenerate triangles, wrong facing, holes too small to matter, shells that overlap. Larger holes are never closed unasked.
+Of a mesh: holes, edges of more than two triangles, triangles that face the wrong way, shells inside out, shells that overlap or touch, triangles that cross, are doubled or have no area; each with a count and a place. What `sphpack pack` mends by itself (it says so): doubled and degenerate triangles, wrong facing, holes too small to matter, shells that overlap, edges where the body touches itself. Larger holes are never closed unasked.
 
 A shell inside a solid one is a cavity if it faces inward; facing outward it adds nothing and is left out.
+
+What cannot be mended can be wrapped: --repair OUT.stl --wrap LENGTH makes a new, closed mesh around what the triangles wind around, on a grid with cells of that length. Holes are closed by smooth sheets; parts and gaps thinner than a cell may be lost; edges are rounded within a cell where shells or holes meet. A quarter of the particle spacing is a good length.
 
 Examples:
   sphpack check body.stl                                     what is wrong, and whether it can be packed
   sphpack check body.stl --spacing 0.02                      also what is thinner than a particle
   sphpack check body.stl --repair mended.stl                 mends it and writes the result
   sphpack check body.stl --repair mended.stl --fill-holes 5  also closes holes up to 5 across, as flat as can be
+  sphpack check body.stl --repair mended.stl --wrap 0.1      makes a new mesh around whatever there is
 
 Exit status: 0 where the body can be packed (after what pack mends by itself, or the repair asked for); 2 where not.")]
 pub(super) struct CheckArguments {
@@ -119,6 +122,9 @@ pub(super) struct CheckArguments {
     /// With --repair: close holes up to this size across
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     pub(super) fill_holes: Option<f64>,
+    /// With --repair: wrap the triangles in a new, closed mesh, on a grid with cells of this size
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    pub(super) wrap: Option<f64>,
     /// Say what is thinner than this particle spacing
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     pub(super) spacing: Option<f64>,

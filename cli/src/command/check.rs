@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use sphpack_geometry::{Mesh, Soup};
+use sphpack_geometry::{HoleLimit, Mesh, Soup};
 
 use super::arguments::CheckArguments;
 use super::{outputs, say};
 use crate::Error;
 use crate::error::{BAD_INPUT, DONE};
-use crate::examined::{Examine, Examined, MeshFindings};
+use crate::examined::{Examine, Examined, Mend, MeshFindings};
 use crate::files::WholeFiles;
 use crate::picture::grouped;
 
@@ -19,6 +19,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
     for (name, value) in [
         ("--spacing", arguments.spacing),
         ("--fill-holes", arguments.fill_holes),
+        ("--wrap", arguments.wrap),
     ] {
         if let Some(value) = value
             && !(value > 0.0 && value.is_finite())
@@ -28,9 +29,19 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
             )));
         }
     }
-    if arguments.fill_holes.is_some() && arguments.repair.is_none() {
+    for (name, is_given) in [
+        ("--fill-holes", arguments.fill_holes.is_some()),
+        ("--wrap", arguments.wrap.is_some()),
+    ] {
+        if is_given && arguments.repair.is_none() {
+            return Err(Error::Usage(format!(
+                "{name} goes with --repair OUT.stl: the mended mesh must go somewhere"
+            )));
+        }
+    }
+    if arguments.wrap.is_some() && arguments.fill_holes.is_some() {
         return Err(Error::Usage(
-            "--fill-holes goes with --repair OUT.stl: the mended mesh must go somewhere".into(),
+            "--wrap closes all holes; leave out --fill-holes".into(),
         ));
     }
     for (path, wanted, words) in [
@@ -52,7 +63,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
     )?;
     let what = Examine {
         spacing: arguments.spacing,
-        fill_holes: arguments.fill_holes,
+        mend: match (arguments.wrap, arguments.fill_holes) {
+            (Some(cell), _) => Mend::Wrap(cell),
+            (None, Some(across)) => Mend::FillHoles(across),
+            (None, None) => Mend::AsPacking,
+        },
     };
     let (examined, mesh) = Examined::of(&arguments.body, &what)?;
     let mut files = WholeFiles::new(arguments.force);
@@ -94,8 +109,10 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
 fn as_in_a_file(mesh: &Mesh) -> Result<Soup, sphpack_geometry::GeometryError> {
     let place = |v: u32| mesh.vertices()[v as usize].map(|x| f64::from(x as f32));
     let corners: Vec<[[f64; 3]; 3]> = mesh.triangles().iter().map(|t| t.map(place)).collect();
-    let soup = Soup::from_loose(&corners)?;
-    soup.body()?;
+    // Corners that have become one make triangles that are none.
+    let mended = Soup::from_loose(&corners)?.repaired(HoleLimit::Small);
+    let soup = mended.soup.clone();
+    mended.body()?;
     Ok(soup)
 }
 
@@ -194,6 +211,16 @@ fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) ->
                     verdict,
                     "; or `--repair OUT.stl --fill-holes {}` closes them as flat as can be",
                     short(1.01 * hole.size)
+                );
+            }
+            if examined.mesh.is_some() && arguments.wrap.is_none() {
+                let longest = size.iter().copied().fold(0.0, f64::max);
+                let cell = arguments.spacing.map_or(0.01 * longest, |s| 0.25 * s);
+                let _ = write!(
+                    verdict,
+                    "; or `sphpack check {} --repair OUT.stl --wrap {}` makes a new, closed mesh on a grid with cells of that size",
+                    arguments.body.display(),
+                    short(cell)
                 );
             }
             verdict

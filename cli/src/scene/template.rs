@@ -28,7 +28,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # translate = [0.0, 0.0]
 # role = "solid"                 # solid | container (its inside is the domain: a tank) | void (no particles inside)
 # precedence = 0                 # where solid bodies overlap, the one with the higher number keeps the room, the other
-                                 # is what is left of it (any shape in 2-D; meshes and boxes in 3-D)
+                                 # is what is left of it
 # density = 1.0                  # mass of a particle = density x volume
 # surface = "inset"              # boundary particles half a spacing inside ("inset"), on the surface ("exact"),
                                  # or a number: how far inside, in spacings

@@ -64,6 +64,7 @@ fn large_holes_are_closed_when_asked() {
         "4 edges with one triangle",
         "1.414 across",
         "--fill-holes 1.428",
+        "`sphpack check open.stl --repair OUT.stl --wrap 0.01`",
     ] {
         assert!(ending.stdout.contains(part), "{}", ending.stdout);
     }
@@ -123,6 +124,16 @@ fn what_makes_no_sense() {
     for (arguments, part) in [
         (&["--spacing", "0"][..], "--spacing is 0"),
         (&["--fill-holes", "1"], "--repair"),
+        (&["--wrap", "0.1"], "--repair"),
+        (&["--wrap", "-1", "--repair", "out.stl"], "--wrap is -1"),
+        (
+            &["--wrap", "1e-9", "--repair", "out.stl"],
+            "cell = 0.000000001",
+        ),
+        (
+            &["--wrap", "1", "--fill-holes", "1", "--repair", "out.stl"],
+            "leave out --fill-holes",
+        ),
         (&["--repair", "out.obj"], "name it .stl"),
         (&["--repair", "cube.stl", "--force"], "input"),
         (&["--report", "out.txt"], "name it .json"),

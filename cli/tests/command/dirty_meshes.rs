@@ -164,8 +164,73 @@ fn a_missing_cap_is_refused_with_the_cure() {
             "near (",
             "close the holes",
             "sphpack check body.stl",
+            "`sphpack check body.stl --repair OUT.stl --wrap 0.01`",
         ],
     );
+}
+
+#[test]
+fn whatever_there_is_can_be_wrapped() {
+    let whole = sphere([0.0; 3]);
+    let capless: Triangles = (whole.iter().copied())
+        .filter(|t| t.iter().any(|p| p[2] <= 0.45))
+        .collect();
+    let sparse: Triangles = (0..whole.len())
+        .filter(|&i| (0.618_034 * i as f64) % 1.0 >= 0.1)
+        .map(|i| whole[i])
+        .collect();
+    let up = |p: [f32; 3]| [p[0], p[1], -p[2]];
+    // The second one open below, and facing outward again after the turn.
+    let second = capless.iter().map(|&[a, b, c]| {
+        [a, c, b].map(|p| {
+            let [x, y, z] = up(p);
+            [x + 0.5, y, z]
+        })
+    });
+    let crossing: Triangles = capless.iter().copied().chain(second).collect();
+    let ball = std::f64::consts::PI / 6.0;
+    let lens = std::f64::consts::PI * 2.5 * 0.25 / 12.0;
+    for (name, triangles, exact) in [
+        ("without a cap", capless.clone(), ball),
+        ("nine of ten", sparse, ball),
+        ("two that cross", crossing, 2.0 * ball - lens),
+    ] {
+        let desk = Desk::new().with("body.stl", stl(&triangles));
+        let wrap = |more: &[&str]| {
+            let mut arguments = vec!["check", "body.stl", "--wrap", "0.02"];
+            arguments.extend(more);
+            desk.run(&arguments)
+        };
+        let said = wrap(&["--repair", "out.stl"]);
+        assert_eq!(said.status, Some(0), "{name}: {said:?}");
+        assert!(
+            said.stdout.contains("wrapped in a new mesh"),
+            "{}",
+            said.stdout
+        );
+        let json = desk.succeed(&["check", "out.stl", "--json"]).stdout;
+        let found: Value = serde_json::from_str(&json).expect("JSON");
+        assert_eq!(
+            found["mesh"]["defects"].as_array().map(Vec::len),
+            Some(0),
+            "{name}: {json}"
+        );
+        let volume = found["volume"].as_f64().expect("a number");
+        eprintln!("{name}: {:+.3} %", 100.0 * (volume / exact - 1.0));
+        assert!(
+            (volume / exact - 1.0).abs() < 0.03,
+            "{name}: {volume}, not {exact}"
+        );
+        desk.refuse(
+            &["check", "body.stl", "--wrap", "0.02"],
+            &["--wrap goes with --repair OUT.stl"],
+        );
+        if name == "without a cap" {
+            let mut pack = vec!["pack", "out.stl", "--quiet"];
+            pack.extend(ARGUMENTS);
+            desk.succeed(&pack);
+        }
+    }
 }
 
 #[test]

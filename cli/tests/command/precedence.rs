@@ -161,16 +161,88 @@ fn meshes_and_boxes() {
         &[1.0 - 0.5 * 0.45 * 0.4, 1.0],
         1e-9,
     );
-    desk.refuse(
-        &["pack", "ball.toml"],
-        &[
-            "ball.toml",
-            "needs meshes (or boxes) in 3-D",
-            "\"other\" is a sphere",
-            "as STL",
-        ],
+    let octant = PI / 48.0;
+    check(
+        &volumes(&desk, "ball.toml"),
+        &[1.0 - octant, 8.0 * octant],
+        1e-3,
     );
     desk.succeed(&["pack", "away.toml", "--dry-run"]);
+}
+
+/// The volume that balls of radii `r` and `s` at distance `d` have in common.
+fn lens(r: f64, s: f64, d: f64) -> f64 {
+    PI * (r + s - d).powi(2) * (d * d + 2.0 * d * (r + s) - 3.0 * (r - s).powi(2)) / (12.0 * d)
+}
+
+#[test]
+fn balls_are_cut_by_level_sets() {
+    let desk = Desk::new().with(
+        "balls.toml",
+        scene(
+            0.1,
+            &[
+                body(
+                    "low",
+                    "sphere = { center = [0.0, 0.0, 0.0], radius = 0.5 }",
+                    "",
+                ),
+                body(
+                    "high",
+                    "sphere = { center = [0.3, 0.4, 0.33], radius = 0.4 }",
+                    "precedence = 1",
+                ),
+            ],
+        ),
+    );
+    let ball = |r: f64| 4.0 / 3.0 * PI * r * r * r;
+    let exact = ball(0.5) - lens(0.5, 0.4, (0.25_f64 + 0.33 * 0.33).sqrt());
+    let found = volumes(&desk, "balls.toml");
+    eprintln!("volume {:+.4} %", 100.0 * (found[0].0 / exact - 1.0));
+    check(&found, &[exact, ball(0.4)], 0.001 * exact);
+}
+
+#[test]
+fn shapes_by_formula_are_cut_by_level_sets() {
+    let cut = |low: &str, high: &str| {
+        let desk = Desk::new().with(
+            "scene.toml",
+            scene(
+                0.1,
+                &[body("low", low, ""), body("high", high, "precedence = 1")],
+            ),
+        );
+        volumes(&desk, "scene.toml")[0]
+    };
+    // Three quarters, a half, a half and a hole through the middle.
+    for (low, high, exact) in [
+        (
+            "ellipsoid = { center = [0.0, 0.0, 0.0], semi_axes = [0.6, 0.4, 0.5] }",
+            "box = { min = [-1.0, 0.0, 0.0], max = [1.0, 1.0, 1.0] }",
+            0.12 * PI,
+        ),
+        (
+            "cylinder = { start = [0.0, 0.0, -0.5], end = [0.0, 0.0, 0.5], radius = 0.4 }",
+            "box = { min = [0.0, -1.0, -1.0], max = [1.0, 1.0, 1.0] }",
+            0.08 * PI,
+        ),
+        (
+            "torus = { center = [0.0, 0.0, 0.0], axis = [0.0, 0.0, 1.0], major = 0.6, minor = 0.3 }",
+            "box = { min = [-1.0, 0.0, -1.0], max = [1.0, 1.0, 1.0] }",
+            PI * PI * 0.6 * 0.09,
+        ),
+        (
+            "box = { min = [-0.5, -0.5, -0.5], max = [0.5, 0.5, 0.5] }",
+            "cylinder = { start = [0.0, 0.0, -1.0], end = [0.0, 0.0, 1.0], radius = 0.3 }",
+            1.0 - 0.09 * PI,
+        ),
+    ] {
+        let (volume, packed) = cut(low, high);
+        let off = volume / exact - 1.0;
+        eprintln!("{low}: {:+.4} %", 100.0 * off);
+        assert!(off.abs() < 5e-3, "{low}: {volume}, not {exact}");
+        assert!((packed / volume - 1.0).abs() < 0.05, "{low}: {packed}");
+    }
 }
 
 #[test]

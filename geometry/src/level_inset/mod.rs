@@ -230,7 +230,7 @@ impl<const D: usize> LevelInset<D> {
 }
 
 /// Direction in which the signed distance grows at `x`, whose closest point is `hit`.
-fn gradient<const D: usize>(x: [f64; D], hit: &Closest<D>) -> [f64; D] {
+pub(crate) fn gradient<const D: usize>(x: [f64; D], hit: &Closest<D>) -> [f64; D] {
     let away = point::sub(x, hit.point);
     let length = point::norm(away);
     // Too near the surface the difference is rounding.

@@ -7,6 +7,9 @@ use crate::GeometryError;
 use crate::level_inset::LevelInset;
 use crate::surface::Surface;
 
+/// Where some edge turns by more than this (radians), faces lie nearly on each other, and the expansion says nothing.
+const FOLD: f64 = 2.8;
+
 /// Edges that turn by less than this (radians) are taken as flat where the faces around a vertex are told apart.
 const FLAT: f64 = 0.05;
 
@@ -25,6 +28,9 @@ pub(super) fn inset(mesh: &Mesh, depth: f64) -> Result<Arc<dyn Surface<3>>, Geom
     let body: Arc<dyn Surface<3>> = Arc::new(mesh.clone());
     if depth == 0.0 {
         return Ok(body);
+    }
+    if (mesh.normals.turn.iter().flatten()).any(|turn| turn.abs() > FOLD) {
+        return Ok(Arc::new(LevelInset::new(body, depth)?));
     }
     let (edges, vertices) = coefficients(mesh);
     let area = mesh.area - depth * (2.0 * edges - depth * vertices);

@@ -1,8 +1,8 @@
 //! Bodies in the plane: closed polygons and finely sampled curves.
 
+mod booleans;
 mod check;
 mod inside;
-mod minus;
 mod offset;
 mod shapes;
 mod surface;

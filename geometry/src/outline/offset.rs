@@ -3,7 +3,7 @@
 //! Every side sweeps a strip as it moves. What is left of the body inside (or what it grows to outside) is the body
 //! minus (plus) all strips and the wedges between neighbours that move apart. The raw offset below winds around each
 //! place as often as body and strips together do, so the result is where its winding number is positive; an overlay
-//! engine finds that. Only this file and `minus` know the engine.
+//! engine finds that. Only this file and `booleans` know the engine.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;

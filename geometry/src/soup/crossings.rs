@@ -115,6 +115,17 @@ pub(super) fn meeting(soup: &Soup, i: usize, j: usize) -> Meeting {
     found
 }
 
+impl Soup {
+    /// The triangles that cross or touch others, sorted.
+    pub(crate) fn crossing_triangles(&self) -> Vec<u32> {
+        let pairs = all(self);
+        let mut found: Vec<u32> = pairs.iter().flat_map(|&(i, j, _)| [i, j]).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
 /// All pairs of triangles that cross or touch, with how; sorted. O(n log n) for triangles that spread out.
 pub(super) fn all(soup: &Soup) -> Vec<(u32, u32, Meeting)> {
     let boxes: Vec<Bounds<3>> = (0..soup.triangles.len())

@@ -7,12 +7,14 @@ mod doubles;
 mod facing;
 mod holes;
 mod join;
+mod pinches;
 mod repair;
 mod report;
 mod shells;
 #[cfg(test)]
 mod tests;
 mod triangulate;
+mod wrap;
 mod write;
 
 use rayon::prelude::*;

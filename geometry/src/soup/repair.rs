@@ -40,6 +40,8 @@ pub enum Repair {
     Turned(usize, usize),
     /// Shells faced the wrong way and were turned inside out; so many of so many.
     TurnedShells(usize, usize),
+    /// Edges at which wedges of the body touch, of four triangles or more, were parted into edges of two.
+    Parted(usize),
     /// Holes were closed.
     Filled {
         /// How many.
@@ -67,6 +69,13 @@ pub enum Repair {
     },
     /// Shells that touch were left as they are.
     LeftContacts(usize),
+    /// The triangles were wrapped by [`Soup::wrapped`].
+    Wrapped {
+        /// The size of the grid's cells, scene units.
+        cell: f64,
+        /// How many triangles there were.
+        triangles: usize,
+    },
 }
 
 impl fmt::Display for Repair {
@@ -93,6 +102,12 @@ impl fmt::Display for Repair {
             Self::TurnedShells(n, of) => write!(
                 f,
                 "{n} of {of} shells were inside out: all their triangles were turned"
+            ),
+            Self::Parted(n) => write!(
+                f,
+                "{n} {} of four triangles or more, where the body touches itself, {} parted into edges of two",
+                if n == 1 { "edge" } else { "edges" },
+                if n == 1 { "was" } else { "were" }
             ),
             Self::Filled {
                 holes,
@@ -122,6 +137,11 @@ impl fmt::Display for Repair {
             Self::LeftContacts(n) => {
                 write!(f, "{n} pairs of shells touch; they were left as they are")
             }
+            Self::Wrapped { cell, triangles } => write!(
+                f,
+                "{triangles} triangles were wrapped in a new mesh on a grid with cells of {}; parts and gaps thinner than that may be lost",
+                four_digits(cell)
+            ),
         }
     }
 }
@@ -139,7 +159,7 @@ pub struct Repaired {
 
 impl Soup {
     /// Mends what can safely be mended: vertices that are nearly equal are welded, degenerate and doubled triangles
-    /// left out, triangles turned so that all agree and shells so that bodies face outward and cavities inward,
+    /// left out, triangles turned so that all agree, edges at which wedges of the body touch parted, and shells so that bodies face outward and cavities inward,
     /// holes within `limit` closed by the triangles of least area over their rims. Shells that overlap stay as they
     /// are: [`Soup::body`] joins them.
     ///
@@ -154,6 +174,10 @@ impl Soup {
         soup.drop_degenerate(&mut done);
         soup.drop_doubles(&mut done);
         soup.turn_triangles(&mut done);
+        let parted = soup.part_pinches();
+        if parted > 0 {
+            done.push(Repair::Parted(parted));
+        }
         soup.fill_holes(limit, &mut done);
         let mut survey = Survey::new(&soup);
         if soup.turn_shells(&survey, &mut done) {

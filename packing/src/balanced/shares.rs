@@ -224,7 +224,7 @@ pub(super) fn shares<const D: usize>(
             volume
         })
         .collect();
-    let direct = directly_inside(bodies);
+    let direct = directly_inside(bodies, problem.spacing);
     let mut left = sites.saturating_sub(on_surface.iter().sum());
     let mut regions = Vec::with_capacity(bodies.len() + 1);
     for region in 0..=bodies.len() {
@@ -262,12 +262,12 @@ pub(super) fn shares<const D: usize>(
 
 /// For every body, and for the fluid last, the bodies that come before and lie in it, without those inside another of
 /// them.
-pub(crate) fn directly_inside<const D: usize>(bodies: &[Body<D>]) -> Vec<Vec<usize>> {
+pub(crate) fn directly_inside<const D: usize>(bodies: &[Body<D>], spacing: f64) -> Vec<Vec<usize>> {
     let mut inside: Vec<Vec<usize>> = (0..bodies.len())
         .map(|b| {
             let outer = bodies[b].surface.as_ref();
             (0..b)
-                .filter(|&a| is_inside(bodies[a].surface.as_ref(), outer))
+                .filter(|&a| is_inside(bodies[a].surface.as_ref(), outer, spacing))
                 .collect()
         })
         .collect();
@@ -281,9 +281,15 @@ pub(crate) fn directly_inside<const D: usize>(bodies: &[Body<D>]) -> Vec<Vec<usi
         .collect()
 }
 
-/// Whether the whole of `inner` is in `outer`, if their surfaces do not meet.
-fn is_inside<const D: usize>(inner: &dyn Surface<D>, outer: &dyn Surface<D>) -> bool {
-    outer.inside(inner.closest(inner.bounds().center()).point)
+/// How far behind a body's surface it is asked whether another holds it, in ∆s: more than what bodies that touch may be
+/// in each other, so that the common side of two is in neither's way.
+const BEHIND_OVER_SPACING: f64 = 0.2;
+
+/// Whether the whole of `inner` is in `outer`, if their surfaces do not pass through each other.
+fn is_inside<const D: usize>(inner: &dyn Surface<D>, outer: &dyn Surface<D>, spacing: f64) -> bool {
+    let at = inner.closest(inner.bounds().center());
+    let behind = point::add_scaled(at.point, -BEHIND_OVER_SPACING * spacing, at.normal);
+    outer.inside(behind)
 }
 
 /// The region of every site that is kept, `None` for those left out: in every region the deepest are kept. Fewer than
