@@ -142,14 +142,16 @@ impl<const D: usize> Sites<D> {
 /// The volume of every body, and of the fluid last, without the bodies in it that come before.
 fn room<const D: usize>(problem: &Problem<D>) -> Vec<f64> {
     let bodies = &problem.bodies;
-    (directly_inside(bodies).into_iter().enumerate())
-        .map(|(region, within)| {
-            let whole = match bodies.get(region) {
-                Some(body) => body.surface.volume(),
-                None => problem.domain.bounds.volume(),
-            };
-            let taken: f64 = within.iter().map(|&a| bodies[a].surface.volume()).sum();
-            (whole - taken).max(0.0)
-        })
-        .collect()
+    (directly_inside(bodies, problem.spacing)
+        .into_iter()
+        .enumerate())
+    .map(|(region, within)| {
+        let whole = match bodies.get(region) {
+            Some(body) => body.surface.volume(),
+            None => problem.domain.bounds.volume(),
+        };
+        let taken: f64 = within.iter().map(|&a| bodies[a].surface.volume()).sum();
+        (whole - taken).max(0.0)
+    })
+    .collect()
 }
