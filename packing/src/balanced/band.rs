@@ -10,7 +10,7 @@ use sphpack_neighbors::point;
 /// Which particles settle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Band {
-    /// Those within two support radii of a surface; one more wherever the residual beyond asks for it. The others stay
+    /// Those within two and a half support radii of a surface; half as many again while the residual beyond asks for it. The others stay
     /// on their lattice, and are neither integrated nor listed. For a consistent finish all: what a body does to its
     /// surroundings falls off so slowly (10⁻³ two support radii away, 10⁻⁴ eight of them, around the cylinder at
     /// ∆s = 0.025) that nothing stays where it is to within 10⁻⁵.
@@ -21,7 +21,7 @@ pub enum Band {
 }
 
 /// Support radii that the band is wide at first.
-const FIRST_WIDTH: f64 = 2.0;
+const FIRST_WIDTH: f64 = 2.5;
 
 /// A band that would hold more than this part of the particles that can move saves nothing: all move.
 const WORTHWHILE: f64 = 0.7;

@@ -119,16 +119,17 @@ impl<const D: usize> History<D> {
             for &other in &self.order {
                 let Pair { step: s, change: y } = &self.pairs[other];
                 for vector in [&s[range.clone()], &y[range.clone()]] {
-                    let mut row = [0.0; ROWS];
+                    // A sum for every axis: chains of additions that do not wait for each other.
+                    let mut row = [[0.0; D]; ROWS];
                     for (((v, s), y), f) in vector.iter().zip(step).zip(change).zip(force) {
                         for k in 0..D {
                             let v = f64::from(v[k]);
-                            row[0] += v * f64::from(s[k]);
-                            row[1] += v * f64::from(y[k]);
-                            row[2] += v * f[k];
+                            row[0][k] += v * f64::from(s[k]);
+                            row[1][k] += v * f64::from(y[k]);
+                            row[2][k] += v * f[k];
                         }
                     }
-                    rows.push(row);
+                    rows.push(row.map(|axes| axes.iter().sum()));
                 }
             }
             rows

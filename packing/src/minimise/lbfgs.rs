@@ -33,7 +33,7 @@ const ROUNDING: f64 = 1e-14;
 impl<const D: usize> Default for Lbfgs<D> {
     fn default() -> Self {
         Self {
-            memory: 8,
+            memory: 10,
             step_over_spacing: 0.2,
             history: History::default(),
             place: Vec::new(),
