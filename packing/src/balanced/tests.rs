@@ -113,7 +113,8 @@ proptest! {
     }
 }
 
-/// The hexagonal lattice is mirrored with the box, but not turned with it: a turned problem is as good, not the same.
+/// The hexagonal lattice is mirrored with the box, but not turned with it: a turned problem is as good, not the same. The
+/// greatest error is one particle's and varies as between seeds; its bar holds for all, and the mean error is the same.
 #[test]
 fn a_mirrored_or_turned_problem_packs_as_well() {
     let flat = [[-0.6, -0.4], [0.7, 0.0], [-0.6, 0.5], [-0.3, 0.05]];
@@ -122,7 +123,11 @@ fn a_mirrored_or_turned_problem_packs_as_well() {
         let problem = Problem::new(Domain::new([-1.0; 2], [1.0; 2]), 0.07)
             .body("arrow", Outline::polygon(&points).expect("an outline"));
         let packed = pack(&problem);
-        (packed.particles.count(Kind::Free), linf(&problem, &packed))
+        let density = packed
+            .quality(&packed.fields(problem.kernel, problem.h_over_spacing))
+            .density;
+        assert!(density.linf < 2e-3, "{density:?}");
+        (packed.particles.count(Kind::Free), density.rms)
     };
     let (count, error) = of(|p| p);
     for map in [
