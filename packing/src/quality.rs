@@ -385,7 +385,7 @@ mod tests {
                     gamma: vec![0.0; positions.len()],
                     gradient: vec![[0.0; 3]; positions.len()],
                 };
-                let is_measured = |i: usize| i % 7 != 0;
+                let is_measured = |i: usize| !i.is_multiple_of(7);
                 let fields = blank.measured(&domain, &positions, &volumes, is_measured, most);
                 (
                     fields,
@@ -398,7 +398,7 @@ mod tests {
             for i in 0..positions.len() {
                 assert!((whole.gamma[i] - parts.gamma[i]).abs() < 1e-13);
                 assert!(point::distance(whole.gradient[i], parts.gradient[i]) < 1e-13);
-                assert_eq!(parts.gamma[i] == 0.0, i % 7 == 0);
+                assert_eq!(parts.gamma[i] == 0.0, i.is_multiple_of(7));
             }
         }
     }
