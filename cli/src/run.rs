@@ -170,11 +170,10 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .map_or_else(|| rest_density(i), |rest| rest.density)
     };
     let normal = |i: usize| {
-        let on = particles.body[i].filter(|_| particles.kind[i].is_on_surface());
-        on.and_then(|body| packed.surfaces.get(usize::from(body)))
-            .map_or([0.0; D], |surface| {
-                surface.surface.closest(particles.position[i]).normal
-            })
+        let on = particles.body[i].filter(|_| particles.kind[i].is_on_surface())?;
+        let surface = &packed.surfaces.get(usize::from(on))?.surface;
+        let hit = surface.closest(particles.position[i]);
+        Some((particles.id[i], padded(hit.normal)))
     };
     Table {
         dimension: D,
@@ -195,7 +194,7 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .clone()
             .map(|i| fields.smoothing_length * point::norm(fields.gradient[i]))
             .collect(),
-        normal: all.map(|i| padded(normal(i))).collect(),
+        normals: all.filter_map(normal).collect(),
         pressure: at_rest.iter().map(|rest| rest.pressure).collect(),
         density: at_rest.iter().map(|rest| rest.density).collect(),
     }

@@ -57,7 +57,6 @@ fn add<const D: usize>(rows: &mut Table, packed: &Packed<D>, scene: &Scene, arou
         rows.mass.push(density * volume);
         rows.gamma.push(gamma);
         rows.residual.push(0.0);
-        rows.normal.push([0.0; 3]);
         id += 1;
     });
 }

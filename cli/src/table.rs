@@ -1,5 +1,7 @@
 //! Particles as files and pictures see them: plain columns, two and three dimensions alike.
 
+use std::collections::HashMap;
+
 use sphpack_packing::Kind;
 use sphpack_separation::Side;
 
@@ -30,8 +32,8 @@ pub struct Table {
     pub gamma: Vec<f64>,
     /// h |∇Γ|.
     pub residual: Vec<f64>,
-    /// Outward unit normal of the particle surface for boundary and fixed particles, else 0.
-    pub normal: Vec<[f64; 3]>,
+    /// Outward unit normals of the particle surface by the ids of boundary and fixed particles: few of many.
+    pub normals: HashMap<u32, [f64; 3]>,
     /// Hydrostatic pressure, 0 in solids; empty where the scene does not ask for it.
     pub pressure: Vec<f64>,
     /// Density at that pressure, solids' own; empty likewise.
@@ -85,10 +87,14 @@ impl Table {
         pick(&mut self.mass, order);
         pick(&mut self.gamma, order);
         pick(&mut self.residual, order);
-        pick(&mut self.normal, order);
         pick(&mut self.pressure, order);
         pick(&mut self.density, order);
         self
+    }
+
+    /// The outward unit normal at particle `i`; 0 where it is on no surface.
+    pub fn normal(&self, i: usize) -> [f64; 3] {
+        self.normals.get(&self.id[i]).copied().unwrap_or_default()
     }
 
     /// Largest |Γ − 1| of the particles inside the domain.

@@ -148,11 +148,11 @@ pub(super) fn measures(table: &Table) -> Vec<Array<'_>> {
         Array::float("mass", |i| table.mass[i]),
         Array::float("gamma", |i| table.gamma[i]),
         Array::float("residual", |i| table.residual[i]),
-        Array::float("nx", |i| table.normal[i][0]),
-        Array::float("ny", |i| table.normal[i][1]),
+        Array::float("nx", |i| table.normal(i)[0]),
+        Array::float("ny", |i| table.normal(i)[1]),
     ];
     if table.dimension == 3 {
-        all.push(Array::float("nz", |i| table.normal[i][2]));
+        all.push(Array::float("nz", |i| table.normal(i)[2]));
     }
     if !table.pressure.is_empty() {
         all.push(Array::float("pressure", |i| table.pressure[i]));

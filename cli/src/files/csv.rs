@@ -37,7 +37,7 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
         let body = table.body[i]
             .and_then(|b| names.get(usize::from(b)))
             .map_or("", String::as_str);
-        let [nx, ny, nz] = table.normal[i].map(Short);
+        let [nx, ny, nz] = table.normal(i).map(Short);
         write!(
             to,
             ",{},{},{body},{},{},{},{},{nx},{ny}",

@@ -23,7 +23,7 @@ pub fn write_ply(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     all.extend(codes(table));
     all.extend(measures(table));
     if table.dimension == 2 {
-        all.push(Array::float("nz", |i| table.normal[i][2]));
+        all.push(Array::float("nz", |i| table.normal(i)[2]));
     }
 
     to.write_all(b"ply\nformat binary_little_endian 1.0\ncomment particles of sphpack\n")?;

@@ -13,7 +13,7 @@ pub(super) fn check(table: &Table) -> io::Result<()> {
         ));
     }
     for i in 0..table.len() {
-        let [[x, y, z], [nx, ny, nz]] = [table.position[i], table.normal[i]];
+        let [[x, y, z], [nx, ny, nz]] = [table.position[i], table.normal(i)];
         let row = [
             ("x", x),
             ("y", y),

@@ -40,7 +40,6 @@ fn table(dimension: usize) -> Table {
         table.mass.push(0.01);
         table.gamma.push(1.0 + 0.004 * position[0]);
         table.residual.push(0.0);
-        table.normal.push([0.0; 3]);
     }
     table
 }
