@@ -292,6 +292,7 @@ where
     resolved.packing.kernel = Some(problem.kernel);
     resolved.packing.h_over_spacing = Some(problem.h_over_spacing);
     resolved.packing.residual_tolerance = Some(settling.tolerance());
+    resolved.packing.levelling = Some(settling.levelling);
     let (kernel, h_over_spacing) = scene.judge();
     resolved.quality.kernel = Some(kernel);
     resolved.quality.h_over_spacing = Some(h_over_spacing);

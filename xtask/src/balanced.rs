@@ -59,8 +59,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
              ## Levelling\n\n\
              An even finish ends under the pressure p = p_b (1 + κ (Γ − Γ₀)), `levelling` = κ in a scene. Moves of a\n\
              hundredth of ∆s make the density even; what they leave is a residual of the background pressure. An\n\
-             evaluation takes two passes over the pairs then, one without. 10 is the default, 200 where masses are\n\
-             corrected; a consistent finish has none.\n\n{dial}",
+             evaluation takes two passes over the pairs then, one without. 10 is the default (less where\n\
+             h/∆s is below 1.2), 200 where masses are corrected; a consistent finish has none.\n\n{dial}",
             if settings.quick {
                 " (the quick rows only)"
             } else {

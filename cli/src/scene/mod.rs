@@ -246,8 +246,8 @@ pub struct PackingSpec {
     pub residual_tolerance: Option<f64>,
     /// The finish of methods that minimise.
     pub finish: Finish,
-    /// How strongly an even finish levels the density, κ of p = p_b (1 + κ (Γ − Γ₀)); `None` is 10, with corrected
-    /// masses 200. A consistent finish does not level.
+    /// How strongly an even finish levels the density, κ of p = p_b (1 + κ (Γ − Γ₀)); `None` is 10, less where
+    /// h/∆s is below 1.2 ([`Settling::levelling_at`]), with corrected masses 200. A consistent finish does not level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub levelling: Option<f64>,
     /// Which particles settle, with the method balanced.
@@ -281,7 +281,7 @@ impl PackingSpec {
     pub fn settling(&self) -> Settling {
         let defaults = Settling::default();
         let levelling = match self.masses {
-            Masses::Equal => defaults.levelling,
+            Masses::Equal => Settling::levelling_at(self.h_over_spacing()),
             Masses::Corrected => CORRECTED_LEVELLING,
         };
         Settling {

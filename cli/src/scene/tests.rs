@@ -323,3 +323,18 @@ fn broken_text_is_located() {
     refuse("spacing = 1\n[domain]\nmargin = 1", 3, &["[[body]]"]);
     refuse("spacing = 1\n[domain]\n", 2, &["domain needs min and max"]);
 }
+
+#[test]
+fn levelling_is_weaker_where_the_kernel_is_short() {
+    let at = |keys: &str| {
+        parse(&format!("{GOOD}[packing]\n{keys}\n"))
+            .packing
+            .settling()
+            .levelling
+    };
+    assert_eq!(at(""), 10.0);
+    assert_eq!(at("h_over_spacing = 1.5"), 10.0);
+    assert!((at("h_over_spacing = 1.0") - 4.82).abs() < 0.01);
+    assert_eq!(at("h_over_spacing = 1.0\nlevelling = 7.0"), 7.0);
+    assert_eq!(at("masses = \"corrected\""), 200.0);
+}

@@ -31,6 +31,9 @@ const SCENES: [[(&str, f64); 2]; 2] = [
 /// Evaluations after which a packing that does not settle is judged as it is.
 const PATIENCE: usize = 400;
 
+/// The same for every h/∆s.
+const LEVELLING: f64 = 10.0;
+
 /// Eigenvalues below this part of the greatest are negative beyond rounding.
 const UNSTABLE: f64 = -1e-9;
 
@@ -51,7 +54,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let mut text = String::from(
         "# Lattices to start from\n\n\
          What a perfect lattice does under background pressure alone, and how packings that start from it end (method\n\
-         balanced, 400 evaluations at most; the worse of two scenes: starfish and zig-zag in the plane, sphere and\n\
+         balanced, levelling 10, 400 evaluations at most for each width of the band; the worse of two scenes: starfish and zig-zag in the plane, sphere and\n\
          turned cube in space). *stability* is the least eigenvalue of the dynamical matrix over the greatest; a\n\
          negative one means that the lattice would rather be something else. *variation* is max Γ − min Γ by the kernel\n\
          that packs, free of its bias. **Bold**: what `lattice = \"auto\"` takes, the lattice of least Γ, that is of least\n\
@@ -158,6 +161,7 @@ fn attempt(
         scene.packing.h_over_spacing = Some(h);
         scene.packing.lattice = Some(lattice);
         scene.packing.max_iterations = PATIENCE;
+        scene.packing.levelling = Some(LEVELLING);
         let report = pack(&scene, &Options::default(), &mut Silent)
             .map_err(|error| error.to_string())?
             .report;
