@@ -70,8 +70,11 @@ impl Table {
         self.in_order(&order)
     }
 
-    /// Column by column, so that no more than one is there twice.
+    /// Column by column, so that no more than one is there twice, and none where the order is what it was.
     fn in_order(mut self, order: &[u32]) -> Self {
+        if order.len() == self.len() && order.is_sorted() {
+            return self;
+        }
         fn pick<T: Copy>(column: &mut Vec<T>, order: &[u32]) {
             if column.is_empty() {
                 return;
