@@ -3,12 +3,10 @@
 use std::time::Instant;
 
 use crate::course::Course;
-use crate::forces::Forces;
 use crate::observer::{Observer, Phase};
-use crate::packed::{Packed, StopReason};
+use crate::packed::Packed;
 use crate::particles::Kind;
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::Repulsion;
 use crate::seeding::{Seeds, particle_surfaces, seed};
 
 /// Leaves every particle on its lattice site; a site inside a body is the body's. The density is the lattice's, the
@@ -43,19 +41,6 @@ impl Clipped {
         }
         let surfaces = particle_surfaces(problem)?;
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
-        let mut forces = Forces::of(problem, Repulsion::none());
-        forces.evaluate(&particles);
-        course.progress.evaluation = 1;
-        course.note(&forces, &particles);
-        Ok(course
-            .end(
-                problem,
-                particles,
-                frozen_lattice,
-                surfaces,
-                &forces,
-                StopReason::Converged,
-            )
-            .with_known_sides())
+        Ok(course.end_unmoved(problem, particles, frozen_lattice, surfaces))
     }
 }

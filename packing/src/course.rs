@@ -10,6 +10,7 @@ use crate::observer::{Observer, Phase, Progress, Sample};
 use crate::packed::{Packed, ParticleSurface, Seconds, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::Problem;
+use crate::repulsion::Repulsion;
 
 /// What a method keeps beside its particles.
 pub(crate) struct Course<'a> {
@@ -90,6 +91,29 @@ impl<'a> Course<'a> {
         self.seconds.neighbors += neighbors;
         self.seconds.forces += pairs;
         self.earlier_evaluations += forces.evaluations();
+    }
+
+    /// The result of a method whose particles stay where they were put, measured once.
+    pub(crate) fn end_unmoved<const D: usize>(
+        mut self,
+        problem: &Problem<D>,
+        particles: Particles<D>,
+        frozen_lattice: Filling<D>,
+        surfaces: Vec<ParticleSurface<D>>,
+    ) -> Packed<D> {
+        let mut forces = Forces::of(problem, Repulsion::none());
+        forces.evaluate(&particles);
+        self.progress.evaluation = 1;
+        self.note(&forces, &particles);
+        self.end(
+            problem,
+            particles,
+            frozen_lattice,
+            surfaces,
+            &forces,
+            StopReason::Converged,
+        )
+        .with_known_sides()
     }
 
     /// The result: the clock stops.

@@ -15,7 +15,7 @@ use crate::packed::{Packed, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::Repulsion;
-use crate::seeding::{Seeds, particle_surfaces, seed};
+use crate::seeding::{particle_surfaces, seed};
 
 /// The standard method (001 §3.2, algorithm 3), in the plane only.
 ///
@@ -75,19 +75,10 @@ impl Standard {
         // CreateParticles
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
-        let Seeds {
-            particles: lattice,
-            frozen_lattice,
-        } = seed(problem)?;
-        let volume = frozen_lattice.volume_per_site();
+        let seeds = seed(problem)?;
+        let volume = seeds.frozen_lattice.volume_per_site();
         let (mut particles, kinds) = layers(problem, volume)?;
-        let is_fluid = |p: [f64; D]| !problem.bodies.iter().any(|body| body.surface.inside(p));
-        for i in 0..lattice.len() {
-            let p = lattice.position[i];
-            if lattice.kind[i] == Kind::Frozen || is_fluid(p) {
-                particles.push(p, lattice.kind[i], lattice.volume[i], None);
-            }
-        }
+        seeds.surround(problem, &mut particles);
         course.progress.on_surface = kinds.iter().filter(|kind| kind.is_on_surface()).count();
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
 
@@ -127,7 +118,7 @@ impl Standard {
             .end(
                 problem,
                 particles,
-                frozen_lattice,
+                seeds.frozen_lattice,
                 surfaces,
                 &forces,
                 stop_reason,

@@ -8,13 +8,11 @@ use spade::{
 use sphpack_geometry::{Surface, polygons};
 
 use crate::course::Course;
-use crate::forces::Forces;
 use crate::observer::{Observer, Phase};
-use crate::packed::{Packed, StopReason};
+use crate::packed::Packed;
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::Repulsion;
-use crate::seeding::{Seeds, particle_surfaces, seed};
+use crate::seeding::{particle_surfaces, seed};
 
 /// Each body is cut into triangles of about ∆s², no angle below 25° but where the body itself is sharper, and each
 /// triangle becomes a particle at its centroid that carries its area (000 §3). The fluid is the lattice's sites outside
@@ -66,32 +64,10 @@ impl Triangulated {
         course.seconds.geometry = geometry.elapsed().as_secs_f64();
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
-        let Seeds {
-            particles: lattice,
-            frozen_lattice,
-        } = seed(problem)?;
-        let is_fluid = |p: [f64; D]| !problem.bodies.iter().any(|body| body.surface.inside(p));
-        for i in 0..lattice.len() {
-            let (p, kind) = (lattice.position[i], lattice.kind[i]);
-            if kind == Kind::Frozen || is_fluid(p) {
-                particles.push(p, kind, lattice.volume[i], None);
-            }
-        }
+        let seeds = seed(problem)?;
+        seeds.surround(problem, &mut particles);
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
-        let mut forces = Forces::of(problem, Repulsion::none());
-        forces.evaluate(&particles);
-        course.progress.evaluation = 1;
-        course.note(&forces, &particles);
-        Ok(course
-            .end(
-                problem,
-                particles,
-                frozen_lattice,
-                surfaces,
-                &forces,
-                StopReason::Converged,
-            )
-            .with_known_sides())
+        Ok(course.end_unmoved(problem, particles, seeds.frozen_lattice, surfaces))
     }
 }
 

@@ -31,7 +31,7 @@ const GRAPH: [(&str, &[&str]); 7] = [
 const MOST_LINES: usize = 500;
 
 /// Files that every project has.
-const REQUIRED: [&str; 11] = [
+const REQUIRED: [&str; 15] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -43,6 +43,10 @@ const REQUIRED: [&str; 11] = [
     "scenes/README.md",
     "docs/reproduction.md",
     "docs/balanced.md",
+    "docs/methods.md",
+    "docs/lattices.md",
+    "docs/speed.md",
+    "docs/pair-loop.md",
 ];
 
 /// Checks the workspace at `root`.

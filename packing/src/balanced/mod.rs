@@ -41,8 +41,8 @@ pub struct Balanced {
 }
 
 /// The force beyond the band that asks for a wider one, in tolerances, and by how much wider it gets. Near surfaces
-/// levelling leaves up to twice the tolerance of the background's force; a stricter rim costs the bunny at h/∆s = 1.0
-/// six widenings and half as much time again, for the same density.
+/// levelling leaves up to twice the tolerance of the background's force; a stricter rim costs widening after widening
+/// where the lattice is soft (h/∆s = 1.0 in space), for the same density.
 const RIM: f64 = 1.6;
 const WIDER: f64 = 1.5;
 

@@ -12,17 +12,15 @@ use crate::seeding::{Seeds, seed_lattice};
 /// The particles at the start, each body's for itself.
 ///
 /// The paper has "a preconditioned Lattice particle distribution within the interior domain" (004 §2.1.2) and says no
-/// more. Three choices, all measured (`docs/methods.md`):
+/// more. Three choices (the boxes of the first are in `docs/methods.md`):
 ///
 /// - A solid's lattice, unless the problem names one, is that of the least Γ at the solid's kernel and h
 ///   ([`Lattice::auto`]). With the paper's kernel and h/∆s = 1.05 a hexagonal lattice is unstable: in a
 ///   periodic box, with no body at all, it comes to rest with Γ between −1.4 and +1.0 % of its own. In bodies of a few
-///   hundred particles the surface disturbs either lattice: by the quintic kernel the zig-zag at ∆s = 0.05 is within
-///   1.1 % from the square, 1.2 % from the hexagonal one.
+///   hundred particles the surface disturbs either lattice, and little is gained.
 /// - N_s particles start evenly on the bounding set (eq. 7) and stay on it. Squeezing the sites beyond it onto it can put
-///   two in one place, which feel no force from each other and never part: Γ was off by a fifth there. Eq. 7 alone lets
-///   particles leave the set inward: 3 of 52 did in the starfish at ∆s = 0.075, and what is missing there is too much
-///   inside, 1.8 % by the quintic kernel, against 0.3 % where they stay.
+///   two in one place, which feel no force from each other and never part. Eq. 7 alone lets particles leave the
+///   set inward, and what is missing there is too much inside.
 /// - Every region has the particles that its volume asks for, the rest of them the deepest sites, and shares its volume
 ///   among them evenly.
 #[derive(Debug)]
