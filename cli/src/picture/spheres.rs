@@ -125,12 +125,11 @@ fn seen(subject: &Subject<'_>, scale: Scale, shown: &[usize], size: usize) -> Ca
     canvas
 }
 
-/// A colour in the light: dark where the surface turns away, a little gloss where it mirrors; in steps of four, which
-/// no eye tells apart and which make a file a quarter smaller.
+/// A colour in the light: dark where the surface turns away, a little gloss where it mirrors.
 fn shaded(colour: [u8; 3], normal: [f64; 3], light: [f64; 3]) -> [u8; 3] {
     let lit = point::dot(normal, light).max(0.0);
     let dark = mixed(colour, [16, 18, 24], 0.62 * (1.0 - lit));
     let half = point::unit(point::add(light, [0.0, 0.0, 1.0])).unwrap_or(light);
     let gloss = point::dot(normal, half).max(0.0).powi(40);
-    mixed(dark, WHITE, 0.18 * gloss).map(|shade| shade - shade % 4)
+    mixed(dark, WHITE, 0.18 * gloss)
 }
