@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use rayon::prelude::*;
 use sphpack_geometry::{Closest, Feature, GeometryError, Surface};
 use sphpack_neighbors::{KdTree, point};
 
@@ -13,7 +14,7 @@ use crate::on_surface::OnSurface;
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::Repulsion;
+use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::{Seeds, seed};
 use crate::watch::Watch;
 
@@ -24,6 +25,9 @@ use crate::watch::Watch;
 /// fixed particles in layers ∆s/2, 3∆s/2, … behind the true surfaces, as deep as the kernel reaches (the fixed ghost
 /// particles of Marrone et al. 2011); what gaps layers leave at corners is filled with lattice sites. They are frozen:
 /// part of no figure.
+///
+/// Not in the paper: particles nearer than 0.7 ∆s repel each other, or those that an acute corner presses together would
+/// end at one place.
 ///
 /// A body named in [`Ppa::containers`] holds the fluid inside, any other one keeps it out. The paper states neither
 /// kernel nor h/∆s.
@@ -58,6 +62,14 @@ const LOOK_EVERY: usize = 50;
 
 /// No fluid particle comes nearer to a wall's surface than this, in ∆s: wall particles alone are no barrier.
 const FLOOR: f64 = 0.4;
+
+/// Sites that are put back nearer than this to another one, in ∆s, are left out.
+const CROWDED: f64 = 0.5;
+
+/// Particles nearer than this, in ∆s, repel each other. The kernel's own force vanishes at no distance, and pairs that an
+/// acute corner presses together would become one; elsewhere nobody comes so near. No stronger than ∆t can follow.
+const PAIRED: f64 = 0.7;
+const APART: f64 = 0.5 * STRENGTH;
 
 /// How often a particle in a corner is put back from one wall and the other.
 const CORNER_ROUNDS: usize = 20;
@@ -100,7 +112,8 @@ impl Ppa {
         let size = problem.spacing;
         let viscosity = self.damping / size;
         let dt = self.cfl * size;
-        let mut forces = Forces::of(problem, Repulsion::none());
+        let apart = Repulsion::with_reach(size, APART, PAIRED);
+        let mut forces = Forces::of(problem, apart);
         let mut motion = Motion::at_rest(particles.len());
         let mut on_surface = OnSurface::default();
         on_surface.refresh(&particles);
@@ -118,17 +131,8 @@ impl Ppa {
                 forces.acceleration(i)
             });
             // "Particles are not allowed to escape from the boundaries."
-            for (i, mut wall) in watch.near(&particles, floor, &nearest) {
-                // In a corner first from one wall, then from the other.
-                for _ in 0..CORNER_ROUNDS {
-                    let lacking = wall.distance + floor;
-                    if lacking <= 0.0 {
-                        break;
-                    }
-                    let p = &mut particles.position[i];
-                    *p = point::add_scaled(*p, -lacking, wall.normal);
-                    wall = nearest(*p, 0);
-                }
+            for (i, _) in watch.near(&particles, floor, &nearest) {
+                particles.position[i] = self.put_back(problem, particles.position[i]);
                 motion.stop(i);
             }
             if iteration % LOOK_EVERY == 0 || iteration == self.max_iterations {
@@ -177,6 +181,45 @@ impl Ppa {
             })
     }
 
+    /// The place as far off the walls as the floor asks, in a corner first from one wall, then from the other.
+    fn put_back<const D: usize>(&self, problem: &Problem<D>, mut p: [f64; D]) -> [f64; D] {
+        for _ in 0..CORNER_ROUNDS {
+            let wall = self.wall(problem, p);
+            let lacking = wall.distance + FLOOR * problem.spacing;
+            if lacking <= 0.0 {
+                break;
+            }
+            p = point::add_scaled(p, lacking, inward(p, &wall));
+        }
+        p
+    }
+
+    /// The sites, those too near to the walls put back. Of those that meet then, in an acute corner, the first is kept:
+    /// nothing would drive the others apart.
+    fn off_the_walls<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        sites: &[[f64; D]],
+    ) -> Vec<[f64; D]> {
+        let at: Vec<[f64; D]> = (sites.par_iter())
+            .with_min_len(256)
+            .map(|&p| self.put_back(problem, p))
+            .collect();
+        let Ok(tree) = KdTree::new(&at) else {
+            return at;
+        };
+        let crowded = CROWDED * problem.spacing;
+        let mut is_kept: Vec<bool> = at.iter().zip(sites).map(|(p, site)| p == site).collect();
+        for i in 0..at.len() {
+            let is_alone = || (tree.within(at[i], crowded).iter()).all(|near| !is_kept[near.index]);
+            if !is_kept[i] && is_alone() {
+                is_kept[i] = true;
+            }
+        }
+        let kept = at.into_iter().zip(is_kept).filter(|(_, is_kept)| *is_kept);
+        kept.map(|(p, _)| p).collect()
+    }
+
     fn holds_fluid(&self, body: usize) -> bool {
         self.containers.get(body).copied().unwrap_or(false)
     }
@@ -197,7 +240,8 @@ impl Ppa {
                 .filter(move |&i| lattice.kind[i] == kind)
                 .map(|i| lattice.position[i])
         };
-        for p in sites(Kind::Free).filter(|&p| is_fluid(p)) {
+        let fluid: Vec<[f64; D]> = sites(Kind::Free).filter(|&p| is_fluid(p)).collect();
+        for p in self.off_the_walls(problem, &fluid) {
             particles.push(p, Kind::Free, 0.0, None);
         }
         let volume = self.fluid_volume(problem) / particles.len().max(1) as f64;
@@ -274,6 +318,16 @@ impl Ppa {
             }
         }
         Ok(points)
+    }
+}
+
+/// The way from the nearest place of a wall into the fluid. Straight from there to where the fluid is, or a wall's edge
+/// that points into the fluid, where normals jump, would push along itself and keep the fluid in motion.
+fn inward<const D: usize>(p: [f64; D], wall: &Closest<D>) -> [f64; D] {
+    let away = point::unit(point::sub(p, wall.point));
+    match away {
+        Some(away) if wall.distance < 0.0 => away,
+        _ => point::scale(wall.normal, -1.0),
     }
 }
 

@@ -214,6 +214,35 @@ fn a_tank_keeps_its_fluid() {
     }
 }
 
+/// Corners of every kind: walls that point into the fluid keep it at rest, acute corners press no two into one.
+#[test]
+fn a_tank_with_bends_comes_to_rest() {
+    let corners = [
+        [0.0, 0.0],
+        [0.7, 0.0],
+        [1.0, -0.15],
+        [1.5, -0.1],
+        [1.7, 0.3],
+        [2.3, 0.7],
+        [1.1, 0.7],
+        [0.9, 0.4],
+        [0.7, 0.7],
+        [0.1, 0.7],
+        [0.16, 0.4],
+    ];
+    let tank = Outline::polygon(&corners).expect("a tank");
+    let problem = Problem::new(Domain::new([-0.3, -0.4], [2.5, 1.0]), 0.04).body("tank", tank);
+    let ppa = Ppa {
+        containers: vec![true],
+        ..Ppa::default()
+    };
+    let packed = ppa.pack(&problem, &mut Silent).expect("a sound problem");
+    assert_eq!(packed.stop_reason, StopReason::Converged);
+    let quality = packed.quality(&packed.fields(problem.kernel, problem.h_over_spacing));
+    let closest = quality.closest_pair_over_spacing;
+    assert!(closest > 0.5, "{closest}");
+}
+
 /// Triangles fill a body, with a hole too, to within the chords of its outline, one for each ∆s² in the mean.
 #[test]
 fn triangles_carry_the_area_of_their_body() {

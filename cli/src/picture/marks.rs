@@ -75,6 +75,17 @@ impl Sheet {
         });
     }
 
+    /// The title at `at`, smaller where it would not end on the sheet: letters are as wide as they are high, at most.
+    pub(super) fn title(&mut self, at: [f64; 2], title: String) {
+        let room = self.width as f64 - 2.0 * at[0];
+        let height = if title.chars().count() as f64 * HEADING <= room {
+            HEADING
+        } else {
+            LABEL
+        };
+        self.text(at, height, Anchor::Start, title);
+    }
+
     /// The colour bar, its left edge and its middle at `at`.
     pub(super) fn colour_bar(&mut self, at: [f64; 2], scale: Scale) {
         const WIDTH: f64 = 34.0;

@@ -3,7 +3,7 @@
 use sphpack_packing::Kind;
 
 use super::colour::{Colour, GREY, INK, Scale};
-use super::marks::{Anchor, BAR_ROOM, HEADING, LABEL, Mark, Sheet};
+use super::marks::{Anchor, BAR_ROOM, LABEL, Mark, Sheet};
 use super::{Subject, grouped};
 
 /// Width of the picture, pixels.
@@ -114,12 +114,7 @@ pub(super) fn sheet(subject: &Subject<'_>) -> Sheet {
         height: height.ceil() as usize,
         marks: Vec::with_capacity(table.len() + 300),
     };
-    sheet.text(
-        [MARGIN, 0.5 * TITLE + 6.0],
-        HEADING,
-        Anchor::Start,
-        title(subject),
-    );
+    sheet.title([MARGIN, 0.5 * TITLE + 6.0], title(subject));
     let pixels = subject.spacing * zoom;
     for rank in [Kind::Frozen, Kind::Free, Kind::Boundary, Kind::Fixed] {
         let rim = match rank {

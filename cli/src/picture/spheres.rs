@@ -5,7 +5,7 @@ use sphpack_neighbors::point;
 use super::Subject;
 use super::canvas::Canvas;
 use super::colour::{Scale, WHITE, mixed};
-use super::marks::{Anchor, BAR_ROOM, HEADING, LABEL, Sheet, paint};
+use super::marks::{Anchor, BAR_ROOM, LABEL, Sheet, paint};
 use super::plane::title;
 use super::slice;
 
@@ -26,12 +26,7 @@ pub(super) fn painted(subject: &Subject<'_>) -> Canvas {
         height: (PANEL + TITLE + 2.0 * MARGIN + 20.0) as usize,
         marks: Vec::new(),
     };
-    sheet.text(
-        [MARGIN, 0.5 * TITLE + 6.0],
-        HEADING,
-        Anchor::Start,
-        title(subject),
-    );
+    sheet.title([MARGIN, 0.5 * TITLE + 6.0], title(subject));
     slice::add(&mut sheet, subject, scale, [MARGIN, TITLE], PANEL);
     let mut canvas = super::marks::painted(&sheet);
     let left = 2.0 * MARGIN + PANEL;

@@ -123,3 +123,30 @@ fn thousands_are_set_apart() {
         ["0", "999", "1,000", "1,234,567"]
     );
 }
+
+#[test]
+fn titles_end_on_the_sheet() {
+    let table = table(2);
+    for (name, is_unfinished) in [
+        ("a", false),
+        ("bends", true),
+        ("as-long-as-a-name-is-shown-here", true),
+    ] {
+        let subject = Subject {
+            name,
+            table: &table,
+            loops: &[],
+            domain: [[-0.5; 3], [0.5; 3]],
+            spacing: 0.012_345,
+            is_unfinished,
+        };
+        let sheet = plane::sheet(&subject);
+        let end = sheet.marks.iter().find_map(|mark| match mark {
+            marks::Mark::Text {
+                at, height, text, ..
+            } if text.contains("max") => Some(at[0] + height * text.chars().count() as f64),
+            _ => None,
+        });
+        assert!(end.is_some_and(|end| end <= sheet.width as f64), "{end:?}");
+    }
+}
