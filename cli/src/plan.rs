@@ -249,7 +249,7 @@ where
         kernel: scene.packing.kernel(),
         h_over_spacing: scene.packing.h_over_spacing(),
         seed: scene.packing.seed,
-        lattice: scene.packing.lattice,
+        lattice: scene.packing.lattice_in(D),
         frozen: match scene.packing.frozen {
             Frozen::Lattice => FrozenLayout::Lattice,
             Frozen::Square => FrozenLayout::Square,

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sphpack_kernels::KernelKind;
+use sphpack_packing::Lattice;
 
 /// How particles are settled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -45,6 +46,8 @@ pub struct MethodInfo {
     pub minimises: bool,
     /// Its own kernel, and smoothing length over ∆s.
     pub kernel: (KernelKind, f64),
+    /// The lattices that its paper starts from, in the plane and in space, instead of the one of least Γ.
+    pub lattices: Option<[Lattice; 2]>,
     /// A line for people.
     pub summary: &'static str,
 }
@@ -57,6 +60,7 @@ const USUAL: MethodInfo = MethodInfo {
     dimensions: &[2, 3],
     minimises: false,
     kernel: (KernelKind::Quintic, 1.2),
+    lattices: None,
     summary: "",
 };
 
@@ -84,6 +88,7 @@ pub const METHODS: [MethodInfo; 10] = [
         method: Method::Coupled,
         name: "coupled",
         kernel: (KernelKind::Cubic, 1.0),
+        lattices: Some([Lattice::Square, Lattice::SimpleCubic]),
         summary: "inside and outside packed apart, then together (paper 001)",
         ..USUAL
     },

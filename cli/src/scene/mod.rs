@@ -272,6 +272,15 @@ impl PackingSpec {
         self.kernel.unwrap_or(self.method.kernel().0)
     }
 
+    /// The lattice to start from, in so many dimensions; `None` is the one of least Γ.
+    pub fn lattice_in(&self, dimension: usize) -> Option<Lattice> {
+        let own = || {
+            let lattices = self.method.info().lattices?;
+            lattices.into_iter().find(|l| l.dimension() == dimension)
+        };
+        self.lattice.or_else(own)
+    }
+
     /// Its smoothing length over ∆s.
     pub fn h_over_spacing(&self) -> f64 {
         self.h_over_spacing.unwrap_or(self.method.kernel().1)

@@ -43,7 +43,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # method = "balanced"            # `sphpack list methods`
 # kernel = "quintic"             # `sphpack list kernels`
 # h_over_spacing = 1.2           # smoothing length over spacing
-# lattice = "auto"               # the start: `sphpack list lattices`
+# lattice = "auto"               # the start: `sphpack list lattices`; of least density, or the method's own
 # frozen = "lattice"             # particles outside the box: the lattice continued, or a "square" ring
 # finish = "even"                # even: pairs stay apart | consistent: no net pressure force on any free particle
 # levelling = 10                 # even: how strongly the density is levelled against leftover forces; 0: not at all

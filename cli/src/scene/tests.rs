@@ -158,6 +158,18 @@ include = ["free", "boundary"]
 }
 
 #[test]
+fn coupled_starts_from_the_papers_lattice() {
+    let mut packing = parse(GOOD).packing;
+    packing.lattice = None;
+    assert_eq!(packing.lattice_in(2), None);
+    packing.method = Method::Coupled;
+    assert_eq!(packing.lattice_in(2), Some(Lattice::Square));
+    assert_eq!(packing.lattice_in(3), Some(Lattice::SimpleCubic));
+    packing.lattice = Some(Lattice::Fcc);
+    assert_eq!(packing.lattice_in(3), Some(Lattice::Fcc));
+}
+
+#[test]
 fn a_scene_survives_json() {
     let scene = parse(GOOD);
     let json = serde_json::to_string(&scene).unwrap();
