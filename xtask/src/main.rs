@@ -44,8 +44,9 @@ cargo xtask TASK
                               the balanced method against its bars; --write also writes docs/balanced.md
   compare [--quick] [--only SCENE] [--method NAME] [--data DIR] [--write]
           [--accelerations | --agitators | --interface | --gaps]
-                              every method on every scene; one method, printed; or one section: 001 §3.1.9, 000's agitators, 004's
-                              interface, 004's gaps; --data names the folder with 30p30n (default: data),
+                              every method on every scene; one method's rows, printed; or one section alone: 001's
+                              accelerations, 000's agitators, 004's interface, 004's gaps;
+                              --data names the folder with 30p30n (default: data),
                               --write also writes docs/methods.md, or that section of it
   lattices [--quick] [--write]
                               stability of every lattice, and packings from it; --write also writes docs/lattices.md

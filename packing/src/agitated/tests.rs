@@ -1,3 +1,5 @@
+//! Repulsion across periodic sides, what agitators do to a lattice, and the whole method.
+
 use sphpack_geometry::Ball;
 use sphpack_neighbors::{Domain, point};
 
