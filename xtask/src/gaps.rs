@@ -16,7 +16,9 @@ use crate::root;
 pub(crate) const ABOUT: &str = "
 The airfoils NACA 5515 and 30P30N (its three elements read from DIR/30p30n) at ∆s = c/250, 004's kernel and h/∆s. As in
 the paper a body is what a grid of distances with cells of ∆s and its origin at the body's corner keeps of it. Without
-the Boolean the fluid is bounded by what another grid, with its origin at the domain's corner, keeps; with it by the
+the Boolean the fluid is bounded by what another grid, with its origin at the domain's corner, keeps. The box is chosen so
+that this grid is half a cell off that of the first element: where both happen to coincide, they keep the same, and
+there is no gap either. With the Boolean it is bounded by the
 very outline of the solid (eq. 11). The last row of each has the exact outline for both, as scenes are packed.
 
 A hole is the distance from a place to the nearest particle, looked for within ∆s of the airfoil's surface: on a perfect
