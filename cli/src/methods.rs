@@ -24,13 +24,14 @@ pub(crate) fn pack<const D: usize>(
             },
         }
         .pack(problem, observer),
-        Method::Hybrid => Hybrid {
-            velocity_tolerance: packing.velocity_tolerance,
-            max_iterations: packing.max_iterations,
-            settling: packing.minimiser.map(|_| packing.settling()),
-            ..Hybrid::default()
-        }
-        .pack(problem, observer),
+        Method::Hybrid => (packing.hybrid)
+            .apply(Hybrid {
+                velocity_tolerance: packing.velocity_tolerance,
+                max_iterations: packing.max_iterations,
+                settling: packing.minimiser.map(|_| packing.settling()),
+                ..Hybrid::default()
+            })
+            .pack(problem, observer),
         Method::Standard => Standard {
             velocity_tolerance: packing.velocity_tolerance,
             max_iterations: packing.max_iterations,
@@ -43,11 +44,12 @@ pub(crate) fn pack<const D: usize>(
             ..Coupled::default()
         }
         .pack(problem, observer),
-        Method::Agitated => Agitated {
-            max_iterations: packing.max_iterations,
-            ..Agitated::default()
-        }
-        .pack(problem, observer),
+        Method::Agitated => (packing.agitated)
+            .apply(Agitated {
+                max_iterations: packing.max_iterations,
+                ..Agitated::default()
+            })
+            .pack(problem, observer),
         Method::Ppa => Ppa {
             max_iterations: packing.max_iterations,
             containers: (scene.body.iter())

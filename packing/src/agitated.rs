@@ -17,18 +17,30 @@ use crate::problem::{PackingError, Problem};
 use crate::repulsion::Repulsion;
 use crate::seeding::{Seeds, particle_surfaces, seed};
 
+mod near;
+#[cfg(test)]
+mod tests;
+
+use near::{Near, REACH};
+
 /// The agitated method (000 §2).
 ///
 /// Some free particles, on a coarse grid and at least 2 ∆s from every surface, run on circles (2-D, eq. 12) or closed
-/// curves on spheres (3-D, eq. 13) of radius ∆s/2 and stir the rest. Slow free particles within ∆s/10 of a surface
-/// become boundary particles, boundary particles farther than ∆s/4 become free again (§2.5); when their number has not
-/// changed for a revolution, agitators become free particles, and the method ends when the largest error of the density
-/// has changed by less than 10⁻³ within one more (eq. 17).
+/// curves on spheres (3-D, eq. 13) of radius ∆s/2 and stir the rest. The free particles nearest to a surface are its
+/// boundary particles at the start (§2.2), slow ones within ∆s/10 of it become so, boundary particles farther than ∆s/4
+/// become free again (§2.5); when their number has not changed for a revolution, agitators become free particles, and
+/// the method ends when the largest error of the density has changed by less than 10⁻³ within one more (eq. 17).
 ///
-/// In the paper p_b = 2000 (d−1) k with k = 1 (eq. 18); here p_b = 1 and times are in units of ∆s/√p_b, which makes the
-/// paper's revolution of 0.2 s at ∆s = 0.05 one of 179 units and its largest step, 10⁻⁴ s, one of 0.09: a revolution
-/// is 2000 steps, also in 3-D, where the curve of eq. 13 takes two of them. Eq. 4 is cut at its zero, r = c, beyond
-/// which it would attract; agitators start on their curve (eqs. 12 and 13 begin ∆s/2 off the site).
+/// In the paper p_b = 2000 (d−1) k with k = 1 (eq. 18); here p_b = 1 and times are in units of ∆s/√p_b. Where the paper
+/// leaves room:
+///
+/// - Its revolution of 0.2 s at ∆s = 0.05 is one of 179 units. The curve of eq. 13 takes two of them.
+/// - Its largest step, h²/ζ "≈ 10⁻⁴ s" (eq. 16), is no time, and 10⁻⁴ s is another part of the unit for every ∆s: 0.09 at
+///   ∆s = 0.05, 0.36 at 0.0125. Here 0.36: the damping of eq. 19 takes 400 units to bring a motion down to 1/e, which is
+///   what most of the iterations are for, and eq. 20 keeps steps small for as long as anything moves fast.
+/// - "Nearest to the body" at the start has no distance: here ∆s/2 to either side, a layer that holds N_s particles.
+/// - Eq. 4 is cut at its zero, r = c, beyond which it would attract; agitators start on their curve (eqs. 12 and 13 begin
+///   ∆s/2 off the site).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agitated {
     /// The end: how little the largest error of the density changes within a revolution (eq. 17).
@@ -39,12 +51,32 @@ pub struct Agitated {
     pub damping: f64,
     /// k in p_b, times d − 1 (eq. 18).
     pub repulsion: f64,
-    /// Steps of a revolution.
-    pub revolution: usize,
+    /// The time of a revolution, in ∆s/√p_b.
+    pub revolution: f64,
+    /// The largest time step, in ∆s/√p_b.
+    pub largest_step: f64,
+    /// What agitators do.
+    pub agitators: Agitators,
+    /// Revolutions without a change of the number of boundary particles until agitators become free.
+    pub steady_revolutions: f64,
     /// The side of the grid's cells, each of which gets an agitator, in ∆s.
     pub grid_over_spacing: f64,
-    /// Distances in ∆s at which free particles become boundary particles, and these free ones.
+    /// Free particles within this of a surface, in ∆s, are boundary particles at the start.
+    pub start_over_spacing: f64,
+    /// Distances in ∆s at which free particles become boundary particles later, and these free ones.
     pub conversion_over_spacing: [f64; 2],
+}
+
+/// What agitators do until the surface has its share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Agitators {
+    /// They run on their curves.
+    #[default]
+    Turning,
+    /// They stay on their sites: what the curves are for.
+    Resting,
+    /// There are none.
+    None,
 }
 
 impl Default for Agitated {
@@ -54,27 +86,22 @@ impl Default for Agitated {
             max_iterations: 20_000,
             damping: 5e-3,
             repulsion: 1.0 / 2000.0,
-            revolution: 2000,
+            revolution: 179.0,
+            largest_step: 0.36,
+            agitators: Agitators::Turning,
+            steady_revolutions: 1.0,
             grid_over_spacing: 4.0,
+            start_over_spacing: 0.5,
             conversion_over_spacing: [0.1, 0.25],
         }
     }
 }
-
-/// The largest time step, in ∆s/√p_b.
-const LARGEST_STEP: f64 = 0.09;
 
 /// No particle moves farther than this in a step, in ∆s (eq. 20).
 const FARTHEST: f64 = 0.01;
 
 /// Agitators are at least this far from every surface, in ∆s.
 const AWAY: f64 = 2.0;
-
-/// c of eq. 4 in ∆s: 1.5 α with α = 1, and 1.2 between boundary particles.
-const REACH: [f64; 2] = [1.5, 1.8];
-
-/// Nearer than this, in ∆s, the repulsion no longer grows.
-const CORE: f64 = 0.5;
 
 /// The skin of the repulsion's neighbour lists, in ∆s.
 const SKIN: f64 = 0.3;
@@ -105,15 +132,19 @@ impl Agitated {
             mut particles,
             frozen_lattice,
         } = seed(problem)?;
-        let mut agitators = self.agitators(problem, &surfaces, &mut particles);
+        let mut agitators = match self.agitators {
+            Agitators::None => Vec::new(),
+            _ => self.chosen(problem, &surfaces, &mut particles),
+        };
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         // All in units of ∆s/√p_b (eqs. 16, 18, 19).
         let size = problem.spacing;
-        let period = self.revolution as f64 * LARGEST_STEP * size;
-        let round = if D == 2 { period } else { 2.0 * period };
+        let period = self.revolution * size;
+        let round = self.steady_revolutions * if D == 2 { period } else { 2.0 * period };
+        let mut is_stirred = true;
         let slow = 0.5 * size * TAU / period;
-        let convert_every = (0.1 / (slow * LARGEST_STEP)).ceil().max(1.0) as usize;
+        let convert_every = (0.1 / (slow * self.largest_step)).ceil().max(1.0) as usize;
         let zeta = self.damping / size;
         let strength = self.repulsion / (D as f64 - 1.0);
         let mut forces = Forces::of(problem, Repulsion::none());
@@ -129,9 +160,13 @@ impl Agitated {
             if course.interrupted {
                 break;
             }
-            if iteration % convert_every == 0 && !agitators.is_empty() {
+            if iteration % convert_every == 0 && is_stirred {
                 let is_slow = |i: usize| motion.speed(i) < slow;
-                if self.convert(problem, &mut particles, &surfaces, &is_slow) {
+                let reach = match iteration {
+                    0 => self.start_over_spacing,
+                    _ => self.conversion_over_spacing[0],
+                };
+                if self.convert(problem, &mut particles, &surfaces, &is_slow, reach) {
                     changed_at = time;
                 }
                 on_surface.refresh(&particles);
@@ -139,19 +174,30 @@ impl Agitated {
             }
             // Eqs. 2, 5, 6 and 9
             forces.evaluate(&particles);
-            near.update(&particles, REACH[1] * size, SKIN * size);
-            near.accelerations(&particles, strength, size, &mut acceleration);
+            near.update(&particles, &problem.domain, REACH[1] * size, SKIN * size);
+            near.accelerations(
+                &particles,
+                &problem.domain,
+                strength,
+                size,
+                &mut acceleration,
+            );
             let farthest = FARTHEST * size;
-            let dt = (LARGEST_STEP * size).min(farthest / motion.fastest.max(farthest / size));
+            let dt = (self.largest_step * size).min(farthest / motion.fastest.max(farthest / size));
             motion.advance(&mut particles, &on_surface, dt, zeta, |i| {
                 point::sub(acceleration[i], forces.gradient(i))
             });
             on_surface.project(&mut particles, &surfaces, problem.support());
             time += dt;
-            for &(i, site) in &agitators {
+            let turning: &[(usize, [f64; D])] = match self.agitators {
+                Agitators::Turning => &agitators,
+                _ => &[],
+            };
+            for &(i, site) in turning {
                 particles.position[i] = orbit(site, 0.5 * size, TAU * time / period);
             }
-            if !agitators.is_empty() && time - changed_at >= round {
+            if is_stirred && time - changed_at >= round {
+                is_stirred = false;
                 for (i, _) in agitators.drain(..) {
                     particles.kind[i] = Kind::Free;
                 }
@@ -167,7 +213,7 @@ impl Agitated {
                 course.progress.evaluation = iteration + 1;
                 course.progress.on_surface = on_surface.index.len();
                 course.note(&forces, &particles);
-                if agitators.is_empty() && time - looked_at >= period {
+                if !is_stirred && time - looked_at >= period {
                     // Eq. 17
                     course.progress.criterion = (error_then - error).abs();
                     if course.progress.criterion < self.density_tolerance {
@@ -194,7 +240,7 @@ impl Agitated {
 
     /// The free particles nearest to the points of a coarse grid, far enough from every surface; held as fixed while
     /// they run. With the sites that they run about.
-    fn agitators<const D: usize>(
+    fn chosen<const D: usize>(
         &self,
         problem: &Problem<D>,
         surfaces: &[ParticleSurface<D>],
@@ -236,9 +282,11 @@ impl Agitated {
         particles: &mut Particles<D>,
         surfaces: &[ParticleSurface<D>],
         is_slow: &(dyn Fn(usize) -> bool + Sync),
+        reach: f64,
     ) -> bool {
         let before = particles.count(Kind::Boundary);
-        let [to_boundary, to_free] = self.conversion_over_spacing.map(|d| d * problem.spacing);
+        let [to_boundary, to_free] =
+            [reach, self.conversion_over_spacing[1]].map(|d| d * problem.spacing);
         let kinds: Vec<(Kind, Option<u16>)> = (0..particles.len())
             .into_par_iter()
             .with_min_len(256)
@@ -280,73 +328,4 @@ fn orbit<const D: usize>(site: [f64; D], radius: f64, angle: f64) -> [f64; D] {
     };
     let (now, first) = (at(angle), at(0.0));
     std::array::from_fn(|k| site[k] + radius * (now[k] - first[k]))
-}
-
-/// Who is within reach of the repulsion of eq. 4.
-#[derive(Default)]
-struct Near<const D: usize> {
-    list: Vec<Vec<u32>>,
-    seen: Vec<[f64; D]>,
-}
-
-impl<const D: usize> Near<D> {
-    /// Finds the neighbours anew where a particle has moved half the skin.
-    fn update(&mut self, particles: &Particles<D>, reach: f64, skin: f64) {
-        let positions = &particles.position;
-        if self.seen.len() == positions.len() {
-            let moved = largest(positions.len(), |i| {
-                point::distance(positions[i], self.seen[i])
-            });
-            if moved <= 0.5 * skin {
-                return;
-            }
-        }
-        self.seen.clone_from(positions);
-        let Ok(tree) = KdTree::new(positions) else {
-            return;
-        };
-        self.list = (0..positions.len())
-            .into_par_iter()
-            .with_min_len(256)
-            .map(|i| {
-                if particles.kind[i] == Kind::Frozen {
-                    return Vec::new();
-                }
-                let found = tree.within(positions[i], reach + skin);
-                let others = found.into_iter().filter(|found| found.index != i);
-                others.map(|found| found.index as u32).collect()
-            })
-            .collect();
-    }
-
-    /// Eq. 5 with eq. 4 cut at r = c.
-    fn accelerations(
-        &self,
-        particles: &Particles<D>,
-        strength: f64,
-        size: f64,
-        out: &mut Vec<[f64; D]>,
-    ) {
-        let is_boundary = |i: usize| particles.kind[i] == Kind::Boundary;
-        self.list
-            .par_iter()
-            .enumerate()
-            .with_min_len(256)
-            .map(|(i, near)| {
-                let mut sum = [0.0; D];
-                for &j in near {
-                    let j = j as usize;
-                    let apart = point::sub(particles.position[i], particles.position[j]);
-                    let r = point::norm(apart);
-                    let c = REACH[usize::from(is_boundary(i) && is_boundary(j))] * size;
-                    if r < c && r > 0.0 {
-                        let r = r.max(CORE * size);
-                        let push = 12.0 * strength * c / (r * r) * (c / r - 1.0);
-                        sum = point::add_scaled(sum, push / r, apart);
-                    }
-                }
-                sum
-            })
-            .collect_into_vec(out);
-    }
 }

@@ -10,6 +10,7 @@ use crate::observer::{Observer, Phase};
 use crate::on_surface::{OnSurface, capture};
 use crate::packed::{Packed, StopReason};
 use crate::particles::Kind;
+use crate::predicted::{hold, predict};
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::{Seeds, fix_corners, particle_surfaces, seed};
@@ -38,6 +39,15 @@ pub struct Hybrid {
     pub repulsion: f64,
     /// What takes over where the capture phase ends; `None` goes on damping, as 001 does.
     pub settling: Option<Settling>,
+    /// The first of 001 §3.1.9's accelerations: the part of N_s that becomes boundary particles at the start, those
+    /// nearest to the surface; the first capture follows one interval later. 001 has 0.9; 0 leaves it out.
+    pub predicted: f64,
+    /// The second: free particles farther than this from every surface, in ∆s, stay on their lattice and are not
+    /// evaluated. Infinite leaves it out.
+    pub moving_over_spacing: f64,
+    /// The third: after the capture phase, each capture follows the last by this factor more iterations; 1 leaves it
+    /// out. (The fourth is a larger [`Hybrid::velocity_tolerance`].)
+    pub projection_growth: f64,
 }
 
 impl Default for Hybrid {
@@ -51,6 +61,9 @@ impl Default for Hybrid {
             damping: 0.2,
             repulsion: STRENGTH,
             settling: None,
+            predicted: 0.0,
+            moving_over_spacing: f64::INFINITY,
+            projection_growth: 1.0,
         }
     }
 }
@@ -82,6 +95,11 @@ impl Hybrid {
             frozen_lattice,
         } = seed(problem)?;
         fix_corners(&mut particles, &surfaces, problem.spacing);
+        if self.predicted > 0.0 {
+            predict(&mut particles, &surfaces, self.predicted, problem.spacing);
+        }
+        let reach = self.moving_over_spacing * problem.spacing;
+        let unmoved = hold(&mut particles, &surfaces, reach);
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         // SetConstantAndTimeStep, for p_b = 1
@@ -91,6 +109,13 @@ impl Hybrid {
         let mut motion = Motion::at_rest(particles.len());
         let mut on_surface = OnSurface::default();
         on_surface.refresh(&particles);
+        on_surface.project(&mut particles, &surfaces, problem.support());
+        let mut interval = self.projection_frequency as f64;
+        let mut next_capture = if self.predicted > 0.0 {
+            self.projection_frequency
+        } else {
+            0
+        };
         let (mut iteration, mut empty_count) = (0, 0);
         let mut stop_reason = StopReason::IterationLimit;
         course.progress.phase = Phase::Capture;
@@ -107,7 +132,7 @@ impl Hybrid {
             // ProjectParticles (algorithm 1); empty passes count in both branches.
             let projecting = Instant::now();
             let is_pass = iteration % self.projection_frequency == 0;
-            if is_pass {
+            if is_pass && iteration >= next_capture {
                 let late = usize::from(empty_count >= self.empty_passes);
                 let distance = self.capture_over_spacing[late] * spacing;
                 let captured = capture(&mut particles, &surfaces, distance);
@@ -117,6 +142,10 @@ impl Hybrid {
                     empty_count = if late == 1 { self.empty_passes } else { 0 };
                     on_surface.refresh(&particles);
                 }
+                if empty_count > self.empty_passes {
+                    interval *= self.projection_growth;
+                }
+                next_capture = iteration + interval as usize;
             }
             on_surface.project(&mut particles, &surfaces, problem.support());
             course.seconds.projection += projecting.elapsed().as_secs_f64();
@@ -154,6 +183,9 @@ impl Hybrid {
             let mut landscape = Landscape::new(&mut particles, &surfaces, forces, spacing, reach);
             stop_reason = settling.run(&mut landscape, &mut course, problem.perfect_gamma(), false);
             forces = landscape.into_forces();
+        }
+        for i in unmoved {
+            particles.kind[i] = Kind::Free;
         }
         Ok(course.end(
             problem,

@@ -42,6 +42,7 @@ pub mod packed;
 mod pair_sums;
 pub mod particles;
 mod ppa;
+mod predicted;
 pub mod problem;
 pub mod quality;
 mod relaxation;
@@ -57,7 +58,7 @@ mod published;
 #[cfg(test)]
 mod tests;
 
-pub use agitated::Agitated;
+pub use agitated::{Agitated, Agitators};
 pub use balanced::{Balanced, Band};
 pub use clipped::Clipped;
 pub use complex::Complex;

@@ -43,7 +43,7 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
         ("complex", |p, o| Complex { relaxation: SHORT }.pack(p, o)),
         ("agitated", |p, o| {
             Agitated {
-                revolution: 1000,
+                revolution: 90.0,
                 max_iterations: if D == 2 { 5000 } else { 500 },
                 ..Agitated::default()
             }

@@ -11,9 +11,9 @@ use sphpack_packing::Silent;
 
 use crate::chart::{Axis, Chart, Scale, Series};
 use crate::figures;
-use crate::interface::interface;
 use crate::reproduce::{Settings, load};
 use crate::root;
+use crate::sections::Section;
 
 const HEAD: &str = "\
 | scene | ∆s | method | L∞ | total variation | residual of free max, rms | body's volume off | on the surface / N_s | \
@@ -34,24 +34,10 @@ const SCENES: [(&str, f64, usize, bool); 6] = [
 /// Iterations in space, where a slow method would take an hour.
 const PATIENCE_IN_SPACE: usize = 2000;
 
-/// What the interface's tables say.
-const ABOUT: &str = "\
-Regenerate this section with `cargo xtask compare --interface --write`. Density by each side's own kernel and h, as
-the paper has them: Wendland's C2 at h/∆s = 1.05 in solids and 1.3 in the fluid, over Γ₀ of the lattice that rests
-there. KGS is 004 eq. 13 over all particles, of the fluid within ∆s of a body; kinetic energy 004 eq. 14 of the same
-at one ∆t. The balanced method, which packs by the quintic kernel, stands beside for what the measure itself allows.
-
-The paper's colours span ±0.4 %, of separate and complex relaxation alike. No method here stays within that by
-Wendland's C2, and the last table says why: with this kernel what is no perfect lattice rests unevenly, whether
-there is a body or not, and at 1.05 not even the hexagonal lattice is stable.
-";
-
-const INTERFACE: &str = "## Paper 004's interface\n";
-
 /// Packs every scene by every method that works in its dimension.
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
-    if settings.interface {
-        return only_interface(settings);
+    if let Some(section) = settings.section {
+        return section.run(settings);
     }
     let mut table = HEAD.to_owned();
     print!("{HEAD}");
@@ -65,6 +51,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             .filter(|info| info.is_available && info.dimensions.contains(&dimension))
             // Its walls are no particles of a body.
             .filter(|info| info.method != Method::Ppa)
+            .filter(|info| (settings.method.as_ref()).is_none_or(|only| only == info.name))
         {
             let Some(mut scene) = load(name, settings)? else {
                 continue;
@@ -96,9 +83,15 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             table.push_str(&line);
         }
     }
+    if settings.method.is_some() {
+        return Ok(());
+    }
     let variation = figures::variation(settings)?;
     let tanks = figures::tanks(settings)?;
-    let interfaces = interface(settings)?;
+    let mut sections = Vec::new();
+    for section in Section::ALL {
+        sections.push(section.text(settings)?);
+    }
     if settings.write {
         let path = root().join("docs/methods.md");
         let text = format!(
@@ -121,7 +114,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             } else {
                 ""
             },
-            section(&interfaces)
+            sections.join("\n")
         );
         fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
         let path = root().join("docs/speed-accuracy.svg");
@@ -147,23 +140,6 @@ fn chart(series: Vec<Series>) -> Chart {
         ],
         series,
     }
-}
-
-/// Paper 004's interface alone, in its place at the end of docs/methods.md.
-fn only_interface(settings: &Settings) -> Result<(), String> {
-    let interfaces = interface(settings)?;
-    if settings.write {
-        let path = root().join("docs/methods.md");
-        let fail = |error| format!("{}: {error}", path.display());
-        let text = fs::read_to_string(&path).map_err(fail)?;
-        let before = text.split(INTERFACE).next().unwrap_or_default().trim_end();
-        fs::write(&path, format!("{before}\n\n{}", section(&interfaces))).map_err(fail)?;
-    }
-    Ok(())
-}
-
-fn section(interfaces: &str) -> String {
-    format!("{INTERFACE}\n{}\n{interfaces}", ABOUT)
 }
 
 fn line(scene: &str, method: &str, report: &Report, seconds: f64) -> String {

@@ -1,6 +1,8 @@
 //! The project's own tasks: `cargo xtask ci | tidy | fuzz | reproduce-paper | balanced | compare | lattices | speed |
 //! round-trip`.
 
+mod accelerations;
+mod agitators;
 mod balanced;
 mod balanced_rows;
 mod chart;
@@ -9,14 +11,17 @@ mod compare;
 mod dial;
 mod figures;
 mod fuzz;
+mod gaps;
 mod interface;
 mod lattices;
 #[path = "../../geometry/src/read/mangle.rs"]
 mod mangle;
+mod parsed;
 mod reproduce;
 mod rest;
 mod round_trip;
 mod rows;
+mod sections;
 mod speed;
 mod tidy;
 
@@ -37,8 +42,11 @@ cargo xtask TASK
                               --write also writes docs/reproduction.md
   balanced [--quick] [--only SCENE] [--data DIR] [--write]
                               the balanced method against its bars; --write also writes docs/balanced.md
-  compare [--quick] [--only SCENE] [--interface] [--write]
-                              every method on every scene; --interface is paper 004's interface alone,
+  compare [--quick] [--only SCENE] [--method NAME] [--data DIR] [--write]
+          [--accelerations | --agitators | --interface | --gaps]
+                              every method on every scene; one method's rows, printed; or one section alone: 001's
+                              accelerations, 000's agitators, 004's interface, 004's gaps;
+                              --data names the folder with 30p30n (default: data),
                               --write also writes docs/methods.md, or that section of it
   lattices [--quick] [--write]
                               stability of every lattice, and packings from it; --write also writes docs/lattices.md

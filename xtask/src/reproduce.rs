@@ -11,6 +11,7 @@ use sphpack_packing::Silent;
 
 use crate::root;
 use crate::rows::{Figure, ROWS, Row};
+use crate::sections::Section;
 
 /// What to run.
 #[derive(Debug, Clone, Default)]
@@ -23,8 +24,10 @@ pub(crate) struct Settings {
     pub(crate) only: Option<String>,
     /// Where bunny.stl is; `data` in the workspace if not said.
     pub(crate) data: Option<PathBuf>,
-    /// Of `compare`, paper 004's interface alone.
-    pub(crate) interface: bool,
+    /// Of `compare`, the one method to print the rows of.
+    pub(crate) method: Option<String>,
+    /// Of `compare`, one section alone.
+    pub(crate) section: Option<Section>,
 }
 
 impl Settings {
@@ -35,24 +38,31 @@ impl Settings {
             match argument.as_str() {
                 "--quick" => settings.quick = true,
                 "--write" => settings.write = true,
-                "--interface" => settings.interface = true,
                 "--only" => {
                     let scene = arguments.next().ok_or("--only needs a scene's name")?;
                     settings.only = Some(scene.clone());
+                }
+                "--method" => {
+                    let method = arguments.next().ok_or("--method needs a name")?;
+                    settings.method = Some(method.clone());
                 }
                 "--data" => {
                     let folder = arguments.next().ok_or("--data needs a folder")?;
                     settings.data = Some(folder.into());
                 }
                 other => {
+                    if let Some(section) = Section::ALL.into_iter().find(|s| s.flag() == other) {
+                        settings.section = Some(section);
+                        continue;
+                    }
                     return Err(format!(
                         "reproduce-paper does not know {other}; see cargo xtask help"
                     ));
                 }
             }
         }
-        if settings.write && settings.only.is_some() {
-            return Err("--write needs every row: leave --only out".to_owned());
+        if settings.write && (settings.only.is_some() || settings.method.is_some()) {
+            return Err("--write needs every row: leave --only and --method out".to_owned());
         }
         Ok(settings)
     }

@@ -373,6 +373,8 @@ impl Scene {
                 ),
             );
         }
+        packing.hybrid.check()?;
+        packing.agitated.check()?;
         if let Some(levelling) = packing.levelling
             && !(levelling >= 0.0 && levelling.is_finite())
         {

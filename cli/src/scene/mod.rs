@@ -5,6 +5,7 @@ mod check_body;
 mod method;
 mod named;
 mod nearest;
+mod options;
 mod parse;
 mod shape;
 mod template;
@@ -22,6 +23,7 @@ pub use method::{METHODS, Method, MethodInfo};
 pub use named::Inset;
 pub(crate) use named::kernel_by_name;
 pub(crate) use nearest::advice;
+pub use options::{AgitatedOptions, AgitatorsAre, HybridOptions};
 pub use shape::{SHAPES, Shape, ShapeInfo};
 pub use template::TEMPLATE;
 
@@ -260,6 +262,10 @@ pub struct PackingSpec {
     pub max_iterations: usize,
     /// For methods that draw random numbers.
     pub seed: u64,
+    /// Of the method hybrid.
+    pub hybrid: HybridOptions,
+    /// Of the method agitated.
+    pub agitated: AgitatedOptions,
 }
 
 /// The levelling of an even finish whose masses are corrected, unless the scene says otherwise: where masses are to
@@ -326,6 +332,8 @@ impl Default for PackingSpec {
             mass_spread: 0.02,
             max_iterations: hybrid.max_iterations,
             seed: 0,
+            hybrid: HybridOptions::default(),
+            agitated: AgitatedOptions::default(),
         }
     }
 }

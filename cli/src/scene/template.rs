@@ -55,6 +55,12 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # mass_spread = 0.02             # corrected masses: no mass changes by more than this part
 # max_iterations = 20000
 # seed = 0                       # for methods that draw random numbers
+# hybrid.predicted = 0.0         # this part of a surface's particles is put there at the start, such as 0.9
+# hybrid.moving = 6.0            # only particles within so many spacings of a surface move (no default: all)
+# hybrid.projection_growth = 1.0 # after the capture phase each capture waits longer by this factor, such as 1.5
+# hybrid.capture = [0.5, 0.65]   # particles within so many spacings of a surface are put on it: at first, later
+# agitated.agitators = "turning" # turning | resting | none
+# agitated.steady_revolutions = 1.0                  # without a change on the surface, until agitators become free
 
 [quality]                        # how the result is judged; left out: by the kernel that packed
 # kernel = "quintic"

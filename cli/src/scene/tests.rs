@@ -61,7 +61,11 @@ fn the_template_packs_and_knows_every_key() {
     let json = serde_json::to_value(parse(TEMPLATE)).unwrap();
     for table in ["fluid", "packing", "quality", "output"] {
         for key in json[table].as_object().unwrap().keys() {
-            assert!(TEMPLATE.contains(&format!("{key} = ")), "{table}.{key}");
+            let stands = [format!("{key} = "), format!("# {key}.")];
+            assert!(
+                stands.iter().any(|text| TEMPLATE.contains(text)),
+                "{table}.{key}"
+            );
         }
     }
     // And with its comments off it is still a scene.
@@ -98,6 +102,10 @@ fn the_template_packs_and_knows_every_key() {
         levelling: scene.packing.levelling,
         minimiser: scene.packing.minimiser,
         residual_tolerance: scene.packing.residual_tolerance,
+        hybrid: HybridOptions {
+            moving: scene.packing.hybrid.moving,
+            ..default.hybrid
+        },
         ..default
     };
     assert_eq!(scene.packing, said);
@@ -310,6 +318,12 @@ fn numbers_out_of_range_are_named() {
         ("minimiser = \"newton\"", "no minimiser is called"),
         ("mass_spread = 1.5", "mass_spread is 1.5"),
         ("levelling = -1", "levelling is -1"),
+        ("hybrid.predicted = 1.5", "hybrid.predicted is 1.5"),
+        ("hybrid.moving = 0", "hybrid.moving is 0"),
+        ("hybrid.projection_growth = 0.5", "projection_growth is 0.5"),
+        ("hybrid.capture = [0.5, 2.0]", "capture is [0.5, 2]"),
+        ("agitated.agitators = \"still\"", "turning, resting, none"),
+        ("agitated.steady_revolutions = 0", "steady_revolutions is 0"),
     ] {
         refuse(&format!("{GOOD}[packing]\n{line}"), 10, &[part]);
     }

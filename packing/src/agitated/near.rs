@@ -1,0 +1,113 @@
+//! The repulsion of paper 000, eqs. 4 and 5.
+
+use rayon::prelude::*;
+use sphpack_neighbors::{Domain, KdTree, point};
+
+use crate::forces::largest;
+use crate::particles::{Kind, Particles};
+
+/// c of eq. 4 in ∆s: 1.5 α with α = 1, and 1.2 between boundary particles.
+pub(super) const REACH: [f64; 2] = [1.5, 1.8];
+
+/// Nearer than this, in ∆s, the repulsion no longer grows.
+const CORE: f64 = 0.5;
+
+/// Who is within reach of the repulsion of eq. 4.
+#[derive(Default)]
+pub(super) struct Near<const D: usize> {
+    list: Vec<Vec<u32>>,
+    seen: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Near<D> {
+    /// Finds the neighbours anew where a particle has moved half the skin.
+    pub(super) fn update(
+        &mut self,
+        particles: &Particles<D>,
+        domain: &Domain<D>,
+        reach: f64,
+        skin: f64,
+    ) {
+        let positions = &particles.position;
+        if self.seen.len() == positions.len() {
+            let moved = largest(positions.len(), |i| {
+                point::distance(positions[i], self.seen[i])
+            });
+            if moved <= 0.5 * skin {
+                return;
+            }
+        }
+        self.seen.clone_from(positions);
+        let places: Vec<[f64; D]> = positions.iter().map(|&p| domain.wrap(p)).collect();
+        let Ok(tree) = KdTree::new(&places) else {
+            return;
+        };
+        self.list = (0..positions.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|i| {
+                if particles.kind[i] == Kind::Frozen {
+                    return Vec::new();
+                }
+                images(domain, places[i], reach + skin)
+                    .into_iter()
+                    .flat_map(|image| tree.within(image, reach + skin))
+                    .filter(|found| found.index != i)
+                    .map(|found| found.index as u32)
+                    .collect()
+            })
+            .collect();
+    }
+
+    /// Eq. 5 with eq. 4 cut at r = c.
+    pub(super) fn accelerations(
+        &self,
+        particles: &Particles<D>,
+        domain: &Domain<D>,
+        strength: f64,
+        size: f64,
+        out: &mut Vec<[f64; D]>,
+    ) {
+        let is_boundary = |i: usize| particles.kind[i] == Kind::Boundary;
+        self.list
+            .par_iter()
+            .enumerate()
+            .with_min_len(256)
+            .map(|(i, near)| {
+                let mut sum = [0.0; D];
+                for &j in near {
+                    let j = j as usize;
+                    let apart = domain.difference(particles.position[i], particles.position[j]);
+                    let r = point::norm(apart);
+                    let c = REACH[usize::from(is_boundary(i) && is_boundary(j))] * size;
+                    if r < c && r > 0.0 {
+                        let r = r.max(CORE * size);
+                        let push = 12.0 * strength * c / (r * r) * (c / r - 1.0);
+                        sum = point::add_scaled(sum, push / r, apart);
+                    }
+                }
+                sum
+            })
+            .collect_into_vec(out);
+    }
+}
+
+/// The place, and its images across periodic sides that are within `reach` of the box.
+fn images<const D: usize>(domain: &Domain<D>, place: [f64; D], reach: f64) -> Vec<[f64; D]> {
+    let (bounds, size) = (domain.bounds, domain.bounds.size());
+    let mut all = vec![place];
+    for k in (0..D).filter(|&k| domain.periodic[k]) {
+        for n in 0..all.len() {
+            let mut image = all[n];
+            if place[k] < bounds.min[k] + reach {
+                image[k] = place[k] + size[k];
+                all.push(image);
+            }
+            if place[k] > bounds.max[k] - reach {
+                image[k] = place[k] - size[k];
+                all.push(image);
+            }
+        }
+    }
+    all
+}
