@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
-use sphpack_geometry::{BodyFormat, Outline, Soup};
+use sphpack_geometry::{BodyFormat, Sketch, Soup};
 
 use crate::mangle::Mangler;
 use crate::root;
@@ -240,7 +240,9 @@ fn is_body(format: BodyFormat, input: &[u8]) -> bool {
         3 => Soup::from_bytes(format, input)
             .and_then(|soup| soup.body())
             .is_ok(),
-        _ => Outline::from_bytes(format, input).is_ok(),
+        _ => Sketch::from_bytes(format, input)
+            .and_then(|sketch| sketch.body())
+            .is_ok(),
     };
     if let Ok(other) = BodyFormat::detect(input, format.extension())
         && other != format
