@@ -2,12 +2,10 @@
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::float::simplify::SimplifyShape;
-use i_overlay::float::single::SingleFloatOverlay;
 
 use sphpack_neighbors::{Bounds, point};
 
-use super::{Outline, offset};
+use super::{Outline, engine, offset};
 use crate::segment::signed_area;
 
 /// Pieces and holes that are thinner on average than this, in parts of the outline's size, are left out: they come of
@@ -58,7 +56,7 @@ impl Outline {
         };
         let loops =
             |outline: &Self| -> Vec<Vec<[f64; 2]>> { outline.loops().map(<[_]>::to_vec).collect() };
-        let shapes = loops(self).overlay_as::<i64>(&loops(other), rule, FillRule::NonZero);
+        let shapes = engine::overlay(&loops(self), &loops(other), rule, FillRule::NonZero);
         let left = without_slivers(shapes, size);
         (!left.is_empty()).then(|| Self::assemble(left))
     }
@@ -113,13 +111,13 @@ pub(crate) fn resolved(loops: &[Vec<[f64; 2]>], filled: Filled) -> Vec<Vec<[f64;
         .map(|points| Bounds::of(points))
         .reduce(Bounds::union)
         .map_or(0.0, |bounds| bounds.diagonal());
-    let shapes = loops.to_vec().simplify_shape_as::<i64>(rule);
+    let shapes = engine::overlay(loops, &[], OverlayRule::Subject, rule);
     without_slivers(shapes, size)
 }
 
 /// The area of what both sets of loops bound, each as [`resolved`] gives them.
-pub(crate) fn shared_area(one: &Vec<Vec<[f64; 2]>>, other: &Vec<Vec<[f64; 2]>>) -> f64 {
-    one.overlay_as::<i64>(other, OverlayRule::Intersect, FillRule::NonZero)
+pub(crate) fn shared_area(one: &[Vec<[f64; 2]>], other: &[Vec<[f64; 2]>]) -> f64 {
+    engine::overlay(one, other, OverlayRule::Intersect, FillRule::NonZero)
         .iter()
         .flatten()
         .map(|points| signed_area(points))

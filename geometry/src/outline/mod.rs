@@ -2,6 +2,7 @@
 
 pub(crate) mod booleans;
 pub(crate) mod check;
+mod engine;
 mod inside;
 mod offset;
 mod shapes;

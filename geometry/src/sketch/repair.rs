@@ -18,7 +18,7 @@ pub enum OutlineRepair {
     DroppedRepeats(usize),
     /// Spikes were left out.
     DroppedSpikes(usize),
-    /// Loops without area, or of fewer than three points, were left out.
+    /// Loops whose points lie on one line were left out.
     DroppedEmpty(usize),
     /// Loops that were there already were left out.
     DroppedDuplicates(usize),
@@ -142,7 +142,8 @@ impl Sketch {
     /// out. A loop that meets itself is taken for what it winds around the right way, where what it winds around the
     /// wrong way has less than 1 % of the area. Loops that overlap are joined where all that hang together run the same
     /// way round and none is within another of them; loops that touch are put together by their nesting. Where one of
-    /// these cannot be done, none is.
+    /// these cannot be done, none is. Loops of one or two points stay: they may be what is left of a loop that was cut
+    /// apart.
     pub fn repaired(&self) -> RepairedSketch {
         let survey = Survey::new(self);
         let mut repaired = RepairedSketch {
@@ -155,13 +156,22 @@ impl Sketch {
             return repaired;
         }
         survey.tell_what_is_dropped(&mut repaired.done);
+        // A loop of one or two points may be the rest of one that was cut apart.
+        let cut_off: Vec<usize> = (0..self.loops.len())
+            .filter(|&k| survey.trimmed[k].different < 3)
+            .collect();
         let meets = !survey.pairs.is_empty() || survey.rings.iter().any(|r| r.own.is_some());
-        if meets && let Some(loops) = survey.joined(&mut repaired.done) {
+        if meets
+            && cut_off.is_empty()
+            && let Some(loops) = survey.joined(&mut repaired.done)
+        {
             repaired.sketch.loops = loops;
             repaired.is_directed = true;
         } else {
             let kept = survey.kept.iter();
-            repaired.sketch.loops = kept.map(|&k| survey.trimmed[k].points.clone()).collect();
+            let kept = kept.map(|&k| survey.trimmed[k].points.clone());
+            let cut_off = cut_off.iter().map(|&k| self.loops[k].clone());
+            repaired.sketch.loops = kept.chain(cut_off).collect();
         }
         repaired.report = repaired.sketch.check();
         repaired

@@ -187,10 +187,10 @@ impl Survey {
             add(Kind::Repeated, one.repeats.0, one.repeats.1, k);
             add(Kind::Spike, one.spikes.0, one.spikes.1, k);
             if one.points.is_empty() {
-                let kind = if one.different < 3 {
-                    Kind::TooFewPoints
-                } else {
+                let kind = if one.is_flat() {
                     Kind::NoArea
+                } else {
+                    Kind::TooFewPoints
                 };
                 add(kind, 1, first, k);
             }

@@ -21,6 +21,13 @@ pub(super) struct Trimmed {
     pub(super) spikes: (usize, [f64; 2]),
 }
 
+impl Trimmed {
+    /// Whether it has points enough, but on one line.
+    pub(super) fn is_flat(&self) -> bool {
+        self.points.is_empty() && self.different >= 3
+    }
+}
+
 /// Takes out repeated points, then spikes, O(n).
 pub(super) fn trim(given: &[[f64; 2]]) -> Trimmed {
     let size = Bounds::of(given).diagonal();
