@@ -8,7 +8,7 @@ use crate::{GeometryError, Outline, Sketch};
 impl Outline {
     /// Reads an outline without defects: rows of x,y, an airfoil's coordinates, or a drawing in SVG, by its content.
     ///
-    /// Rows are "x,y" (or "x y", "x;y"); `#` starts a comment, one header or title is allowed, a blank line ends a
+    /// Rows are "x,y" (or "x y", "x;y"; with decimal commas where ";" or a tab parts them); `#` starts a comment, one header or title is allowed, a blank line ends a
     /// loop. Airfoils are Selig's (once round) or Lednicer's (upper and lower surface, with their numbers of points).
     /// Of a drawing, every closed path, polygon, rectangle, circle and ellipse is a loop, transforms applied; its units
     /// are those of the outermost viewBox (width and height do not matter), and since its y points down, (x, y) is read
