@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use sphpack_geometry::{
     Ball, BodyFormat, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed,
-    Similarity, Soup, Surface, Torus,
+    Similarity, Sketch, Soup, Surface, Torus,
 };
 
 use crate::body_file;
@@ -104,6 +104,7 @@ impl Dimension<2> for Space<2> {
         place: &Similarity<2>,
     ) -> Result<Built<2>, GeometryError> {
         let mut read = None;
+        let mut repairs = Vec::new();
         let outline = match shape {
             Shape::Circle { center, radius } => {
                 let ball = Ball::new(place.point(array(center)), radius * place.scale())?;
@@ -155,15 +156,19 @@ impl Dimension<2> for Space<2> {
             } => Outline::zigzag(*width, *height, *amplitude, *teeth)?,
             Shape::Naca { digits, chord } => Outline::naca(digits, *chord)?,
             Shape::File(path) => {
-                let (format, outline) = body_file::read(file.unwrap_or(path), Outline::from_bytes)?;
-                read = Some((format, outline.points().len()));
-                outline
+                let (format, mended) = body_file::read(file.unwrap_or(path), |format, bytes| {
+                    Sketch::from_bytes(format, bytes)?.body()
+                })?;
+                read = Some((format, mended.outline.points().len()));
+                repairs = mended.done.iter().map(ToString::to_string).collect();
+                mended.outline
             }
             _ => return Err(wrong_dimension(shape, 2)),
         };
         let outline = outline.transformed(place);
         Ok(Built {
             read,
+            repairs,
             ..Built::of_outline(outline)
         })
     }

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 use sphpack_geometry::{
-    BodyFormat, GeometryError, HoleLimit, Mesh, MeshReport, Outline, Soup, Surface,
+    BodyFormat, GeometryError, HoleLimit, Mesh, Outline, Sketch, Soup, Surface,
 };
 use sphpack_neighbors::Bounds;
 
 use crate::Error;
 use crate::body_file::{self, body_format};
+use crate::findings::{MeshFindings, OutlineFindings};
 
 /// The version of the keys.
 const SCHEMA: u32 = 1;
@@ -45,70 +46,10 @@ pub struct Examined {
     pub volume: f64,
     /// Of a mesh, before repairs.
     pub mesh: Option<MeshFindings>,
+    /// Of an outline, before repairs.
+    pub outline: Option<OutlineFindings>,
     /// Where a spacing was given: what is thinner.
     pub thin: Option<Thin>,
-}
-
-/// A mesh as it is in its file.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct MeshFindings {
-    /// Triangles.
-    pub triangles: usize,
-    /// Different vertices.
-    pub vertices: usize,
-    /// What is wrong.
-    pub defects: Vec<DefectFound>,
-    /// Open rims, the largest first.
-    pub holes: Vec<HoleFound>,
-    /// Parts that hang together.
-    pub shells: Vec<ShellFound>,
-}
-
-/// A defect.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DefectFound {
-    /// Its short name.
-    pub kind: &'static str,
-    /// How often.
-    pub count: usize,
-    /// The first, scene units.
-    pub place: [f64; 3],
-    /// Whether it matters.
-    pub is_harmless: bool,
-    /// The same in words.
-    pub words: String,
-}
-
-/// A hole.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct HoleFound {
-    /// Open edges.
-    pub edges: usize,
-    /// How large across, scene units.
-    pub size: f64,
-    /// Where.
-    pub place: [f64; 3],
-}
-
-/// A shell.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ShellFound {
-    /// Triangles.
-    pub triangles: usize,
-    /// What it is to the body: body, cavity, redundant, undecided (it is open, or its triangles disagree).
-    pub role: &'static str,
-    /// Whether it faces the wrong way for that.
-    pub is_inverted: bool,
-    /// The shell around it, counted from 0.
-    pub inside: Option<usize>,
-    /// Lower corner of its box.
-    pub min: [f64; 3],
-    /// Upper corner.
-    pub max: [f64; 3],
-    /// Its area.
-    pub area: f64,
-    /// What it encloses, negative where it faces inward; means little where it is open.
-    pub volume: f64,
 }
 
 /// What is thinner than a particle.
@@ -145,12 +86,21 @@ pub enum Mend {
     Wrap(f64),
 }
 
+/// What is packed, or written by a repair.
+#[derive(Debug, Clone)]
+pub enum MendedBody {
+    /// In space.
+    Mesh(Mesh),
+    /// In the plane.
+    Outline(Outline),
+}
+
 impl Examined {
-    /// Reads a body and examines it; and the mended body, where it is a mesh that can be packed.
+    /// Reads a body and examines it; and the mended body, where it can be packed.
     ///
     /// # Errors
-    /// [`Error::Input`] where the file cannot be read, or is an outline that cannot be used.
-    pub fn of(path: &Path, what: &Examine) -> Result<(Self, Option<Mesh>), Error> {
+    /// [`Error::Input`] where the file cannot be read.
+    pub fn of(path: &Path, what: &Examine) -> Result<(Self, Option<MendedBody>), Error> {
         let in_file = |source: GeometryError| match source {
             GeometryError::InFile { path, source } => Error::Input {
                 path: path.into(),
@@ -161,10 +111,8 @@ impl Examined {
         };
         // What keeps the file from being opened is said as of any other file.
         if body_format(path)?.dimension() == 2 {
-            let (format, outline) = body_file::read(path, Outline::from_bytes).map_err(in_file)?;
-            let mut examined = Self::new(path, format, outline.bounds());
-            examined.be(&outline, what.spacing);
-            return Ok((examined, None));
+            let (format, sketch) = body_file::read(path, Sketch::from_bytes).map_err(in_file)?;
+            return Ok(Self::of_sketch(path, format, &sketch, what.spacing));
         }
         let (format, soup) = body_file::read(path, Soup::from_bytes).map_err(in_file)?;
         let report = soup.check();
@@ -186,11 +134,36 @@ impl Examined {
             Ok(mended) => {
                 examined.repairs = mended.done.iter().map(ToString::to_string).collect();
                 examined.be(&mended.mesh, what.spacing);
-                Ok((examined, Some(mended.mesh)))
+                Ok((examined, Some(MendedBody::Mesh(mended.mesh))))
             }
             Err(reason) => {
                 examined.reason = Some(reason.to_string());
                 Ok((examined, None))
+            }
+        }
+    }
+
+    fn of_sketch(
+        path: &Path,
+        format: BodyFormat,
+        sketch: &Sketch,
+        spacing: Option<f64>,
+    ) -> (Self, Option<MendedBody>) {
+        let report = sketch.check();
+        let mut examined = Self::new(path, format, report.bounds);
+        examined.measure = report.loops.iter().map(|one| one.length).sum();
+        examined.volume = report.area();
+        let body = sketch.body_knowing(&report);
+        examined.outline = Some(report.into());
+        match body {
+            Ok(mended) => {
+                examined.repairs = mended.done.iter().map(ToString::to_string).collect();
+                examined.be(&mended.outline, spacing);
+                (examined, Some(MendedBody::Outline(mended.outline)))
+            }
+            Err(reason) => {
+                examined.reason = Some(reason.to_string());
+                (examined, None)
             }
         }
     }
@@ -209,6 +182,7 @@ impl Examined {
             measure: 0.0,
             volume: 0.0,
             mesh: None,
+            outline: None,
             thin: None,
         }
     }
@@ -246,47 +220,4 @@ fn thin<const D: usize>(surface: &dyn Surface<D>, spacing: f64) -> Thin {
     }
     found.part_of_surface = below as f64 / probes.len().max(1) as f64;
     found
-}
-
-impl From<MeshReport> for MeshFindings {
-    fn from(report: MeshReport) -> Self {
-        Self {
-            triangles: report.triangles,
-            vertices: report.vertices,
-            defects: report
-                .defects
-                .iter()
-                .map(|defect| DefectFound {
-                    kind: defect.kind.name(),
-                    count: defect.count,
-                    place: defect.place,
-                    is_harmless: defect.kind.is_harmless(),
-                    words: defect.to_string(),
-                })
-                .collect(),
-            holes: report
-                .holes
-                .iter()
-                .map(|hole| HoleFound {
-                    edges: hole.edges,
-                    size: hole.size,
-                    place: hole.place,
-                })
-                .collect(),
-            shells: report
-                .shells
-                .iter()
-                .map(|shell| ShellFound {
-                    triangles: shell.triangles,
-                    role: shell.role.name(),
-                    is_inverted: shell.is_inverted,
-                    inside: shell.inside,
-                    min: shell.bounds.min,
-                    max: shell.bounds.max,
-                    area: shell.area,
-                    volume: shell.volume,
-                })
-                .collect(),
-        }
-    }
 }

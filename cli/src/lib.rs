@@ -35,6 +35,7 @@ mod dimension;
 mod error;
 mod examined;
 pub mod files;
+mod findings;
 mod hydrostatic;
 mod labels;
 mod methods;
@@ -52,7 +53,8 @@ mod table;
 pub use body_file::{ReadBody, body_format};
 pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};
-pub use examined::{DefectFound, Examine, Examined, HoleFound, MeshFindings, ShellFound, Thin};
+pub use examined::{Examine, Examined, Mend, MendedBody, Thin};
+pub use findings::{DefectFound, HoleFound, LoopFound, MeshFindings, OutlineFindings, ShellFound};
 pub use plan::{Plan, plan};
 pub use report::{
     BodyReport, Counts, Density, History, MassReport, Report, Residual, SCHEMA, SecondsReport,

@@ -187,6 +187,9 @@ where
                 // The message names the file already.
                 GeometryError::InFile { path, source } => Error::Input {
                     message: match *source {
+                        GeometryError::Defective { .. } if D == 2 => {
+                            format!("{source}. `sphpack check {path}` says more")
+                        }
                         GeometryError::Defective { .. } => {
                             // Four cells to a spacing, in the units of the file.
                             let cell = four_digits(0.25 * scene.spacing / body.scale);

@@ -29,6 +29,7 @@
 //! | 3-D: closed triangle meshes | [`Mesh`] |
 //! | files: STL, OBJ, PLY; rows of x,y, airfoils, SVG | [`Mesh::read`], [`Outline::read`], [`BodyFormat`], [`Solid`] |
 //! | triangles with defects: check, mend, join | [`Soup`], [`Soup::read`], [`FastWinding`] |
+//! | loops with defects: check, mend, join | [`Sketch`], [`Sketch::read`] |
 //! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
 //! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`] |
 //! | distances on a grid, and Booleans of them | [`LevelSet`] |
@@ -54,6 +55,7 @@ mod sampling;
 mod segment;
 mod shapes;
 mod similarity;
+mod sketch;
 mod soup;
 mod surface;
 mod thickness;
@@ -74,6 +76,10 @@ pub use sample::{polygons, sample_weighted};
 pub use sampling::SAGITTA_OVER_SIZE;
 pub use shapes::{Ball, Cuboid, Cylinder, Ellipsoid, Torus};
 pub use similarity::Similarity;
+pub use sketch::{
+    LoopRole, MendedOutline, OutlineDefect, OutlineDefectKind, OutlineRepair, OutlineReport,
+    RepairedSketch, Sketch, SketchLoop,
+};
 pub use soup::{
     Defect, DefectKind, Hole, HoleLimit, Mended, MeshReport, Repair, Repaired, Shell, ShellRole,
     Soup,

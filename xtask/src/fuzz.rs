@@ -3,16 +3,22 @@
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
-use sphpack_geometry::{BodyFormat, Outline, Soup};
+use sphpack_geometry::{BodyFormat, Sketch, Soup};
 
 use crate::mangle::Mangler;
 use crate::root;
 
 /// An input of a few hundred bytes must not take longer.
 const MOST_TIME: Duration = Duration::from_secs(2);
+
+/// Nor may the whole process ask for more, the stacks and heaps of its threads included.
+const MOST_MEBIBYTES: u64 = 1024;
+
+/// Inputs from one seed. Seeds follow from the block's number, so that threads can share a format.
+const BLOCK: usize = 4096;
 
 /// What to run.
 #[derive(Debug, Clone)]
@@ -53,7 +59,8 @@ struct Tally {
     slowest: Duration,
 }
 
-/// Damages the corpus of each format; fails at the first input on which a reader panics or takes too long, and keeps it.
+/// Damages the corpus of each format; fails at the first input on which a reader panics, takes too long or too much
+/// memory, and keeps it.
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     // A panic is reported once, with its input.
     std::panic::set_hook(Box::new(|_| {}));
@@ -76,14 +83,14 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         paths.sort();
         let files: Vec<Vec<u8>> = paths.iter().flat_map(fs::read).collect();
         let start = Instant::now();
-        let tally = watched(settings, format, &files)?;
+        let tally = Readings::new(settings, format, &files).all()?;
         println!(
             "{name}: {} inputs, {} of them bodies, {:.0} inputs/s, the slowest {:.1} ms, peak memory {} MiB",
             settings.inputs,
             tally.bodies,
             settings.inputs as f64 / start.elapsed().as_secs_f64(),
             1e3 * tally.slowest.as_secs_f64(),
-            peak_mebibytes()
+            mebibytes("VmHWM")
         );
     }
     if found {
@@ -93,61 +100,138 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     }
 }
 
-/// The input that is being read, and since when.
-type Current = Mutex<Option<(Instant, Vec<u8>)>>;
+/// All inputs of one reader, in blocks that are the same whatever the number of threads.
+struct Readings<'a> {
+    settings: &'a Settings,
+    format: BodyFormat,
+    files: &'a [Vec<u8>],
+    next_block: AtomicUsize,
+    /// A reader has failed, or all is read: nobody goes on.
+    is_over: AtomicBool,
+}
 
-/// Reads on a thread of its own, and looks whether it comes to an end.
-fn watched(settings: &Settings, format: BodyFormat, files: &[Vec<u8>]) -> Result<Tally, String> {
-    let current = Current::default();
-    std::thread::scope(|scope| {
-        let worker = scope.spawn(|| read_all(settings, format, files, &current));
-        while !worker.is_finished() {
-            std::thread::sleep(Duration::from_millis(50));
-            let hung = lock(&current)
-                .as_ref()
-                .filter(|(since, _)| since.elapsed() > 5 * MOST_TIME)
-                .map(|(_, input)| keep(format, "hangs", input));
-            if let Some(message) = hung {
-                // The thread cannot be stopped.
-                eprintln!("{message}");
-                std::process::exit(1);
+impl<'a> Readings<'a> {
+    fn new(settings: &'a Settings, format: BodyFormat, files: &'a [Vec<u8>]) -> Self {
+        Self {
+            settings,
+            format,
+            files,
+            next_block: AtomicUsize::new(0),
+            is_over: AtomicBool::new(false),
+        }
+    }
+
+    /// The inputs of a block, in their order.
+    fn inputs(&self, block: usize) -> impl Iterator<Item = Vec<u8>> {
+        let mut mangler = Mangler::new(self.settings.seed, block as u64);
+        let count = BLOCK.min(self.settings.inputs - block * BLOCK);
+        (0..count).map(move |_| mangler.mangled(self.files))
+    }
+
+    /// Reads on threads of their own, and looks whether every input comes to an end.
+    fn all(&self) -> Result<Tally, String> {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let places: Vec<AtomicUsize> = (0..threads).map(|_| AtomicUsize::new(0)).collect();
+        std::thread::scope(|scope| {
+            let workers: Vec<_> = places
+                .iter()
+                .map(|at| scope.spawn(|| self.work(at)))
+                .collect();
+            self.watch(&places, || workers.iter().all(|w| w.is_finished()));
+            let mut whole = Tally::default();
+            for worker in workers {
+                let tally = worker.join().unwrap_or_else(|_| {
+                    Err("a reader's thread panicked outside any reader".to_owned())
+                })?;
+                whole.bodies += tally.bodies;
+                whole.slowest = whole.slowest.max(tally.slowest);
+            }
+            Ok(whole)
+        })
+    }
+
+    /// Ends the process where an input hangs: its thread cannot be stopped.
+    fn watch(&self, places: &[AtomicUsize], is_done: impl Fn() -> bool) {
+        let mut seen: Vec<_> = places.iter().map(|_| (0, Instant::now())).collect();
+        while !is_done() {
+            std::thread::sleep(Duration::from_millis(20));
+            for (place, (number, since)) in places.iter().zip(&mut seen) {
+                let now = place.load(Relaxed);
+                if now != *number {
+                    (*number, *since) = (now, Instant::now());
+                } else if since.elapsed() > 5 * MOST_TIME && now > 0 {
+                    let input = self.inputs((now - 1) / BLOCK).nth((now - 1) % BLOCK);
+                    eprintln!("{}", self.keep("hangs", &input.unwrap_or_default()));
+                    std::process::exit(1);
+                }
             }
         }
-        worker
-            .join()
-            .unwrap_or_else(|_| Err("the readers' thread panicked outside any reader".to_owned()))
-    })
-}
+    }
 
-fn lock(current: &Current) -> std::sync::MutexGuard<'_, Option<(Instant, Vec<u8>)>> {
-    current
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner)
-}
+    /// Reads block after block; `at` holds the number of the input that is being read, counted from 1.
+    fn work(&self, at: &AtomicUsize) -> Result<Tally, String> {
+        // Alone in a pool, the readers' parallel loops run here instead of waking other threads.
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(1)
+            .use_current_thread()
+            .build()
+            .map_err(|error| format!("no thread for the readers: {error}"))?;
+        let result = pool.install(|| {
+            let mut tally = Tally::default();
+            while !self.is_over.load(Relaxed) {
+                let block = self.next_block.fetch_add(1, Relaxed);
+                if block * BLOCK >= self.settings.inputs {
+                    break;
+                }
+                for (number, input) in self.inputs(block).enumerate() {
+                    at.store(block * BLOCK + number + 1, Relaxed);
+                    self.read(&input, &mut tally)?;
+                }
+                // Address space counts too: memory that is asked for and never used.
+                if mebibytes("VmPeak") > MOST_MEBIBYTES {
+                    return Err(format!(
+                        "the reader of {} takes more than {MOST_MEBIBYTES} MiB in block {block} of seed {} or beside it",
+                        self.format.description(),
+                        self.settings.seed
+                    ));
+                }
+            }
+            Ok(tally)
+        });
+        if result.is_err() {
+            self.is_over.store(true, Relaxed);
+        }
+        at.store(0, Relaxed);
+        result
+    }
 
-fn read_all(
-    settings: &Settings,
-    format: BodyFormat,
-    files: &[Vec<u8>],
-    current: &Current,
-) -> Result<Tally, String> {
-    let mut mangler = Mangler::new(settings.seed);
-    let mut tally = Tally::default();
-    for _ in 0..settings.inputs {
-        let input = mangler.mangled(files);
+    fn read(&self, input: &[u8], tally: &mut Tally) -> Result<(), String> {
         let start = Instant::now();
-        *lock(current) = Some((start, input.clone()));
-        let result = catch_unwind(AssertUnwindSafe(|| is_body(format, &input)));
+        let result = catch_unwind(AssertUnwindSafe(|| is_body(self.format, input)));
         let time = start.elapsed();
-        *lock(current) = None;
         match result {
-            Err(_) => return Err(keep(format, "panics", &input)),
-            Ok(_) if time > MOST_TIME => return Err(keep(format, "takes too long", &input)),
+            Err(_) => return Err(self.keep("panics", input)),
+            Ok(_) if time > MOST_TIME => return Err(self.keep("takes too long", input)),
             Ok(is_body) => tally.bodies += usize::from(is_body),
         }
         tally.slowest = tally.slowest.max(time);
+        Ok(())
     }
-    Ok(tally)
+
+    /// Writes the input where it can be looked at, and says so.
+    fn keep(&self, fault: &str, input: &[u8]) -> String {
+        let path = root()
+            .join("target")
+            .join(format!("fuzz.{}", self.format.extension()));
+        let kept = match fs::write(&path, input) {
+            Ok(()) => path.display().to_string(),
+            Err(error) => format!("lost, {}: {error}", path.display()),
+        };
+        format!(
+            "the reader of {} {fault}; the input is {kept}: add it to geometry/corpus when mended",
+            self.format.description()
+        )
+    }
 }
 
 /// Reads the input in its format, and in that which it looks like.
@@ -156,7 +240,9 @@ fn is_body(format: BodyFormat, input: &[u8]) -> bool {
         3 => Soup::from_bytes(format, input)
             .and_then(|soup| soup.body())
             .is_ok(),
-        _ => Outline::from_bytes(format, input).is_ok(),
+        _ => Sketch::from_bytes(format, input)
+            .and_then(|sketch| sketch.body())
+            .is_ok(),
     };
     if let Ok(other) = BodyFormat::detect(input, format.extension())
         && other != format
@@ -166,27 +252,14 @@ fn is_body(format: BodyFormat, input: &[u8]) -> bool {
     build(format)
 }
 
-/// Writes the input where it can be looked at, and says so.
-fn keep(format: BodyFormat, fault: &str, input: &[u8]) -> String {
-    let path = root()
-        .join("target")
-        .join(format!("fuzz.{}", format.extension()));
-    let kept = match fs::write(&path, input) {
-        Ok(()) => path.display().to_string(),
-        Err(error) => format!("lost, {}: {error}", path.display()),
-    };
-    format!(
-        "the reader of {} {fault}; the input is {kept}: add it to geometry/corpus when mended",
-        format.description()
-    )
-}
-
-/// The most memory that this process has had, where the system tells.
-fn peak_mebibytes() -> u64 {
+/// A quantity of this process, where the system tells; 0 where it does not.
+fn mebibytes(name: &str) -> u64 {
     fs::read_to_string("/proc/self/status")
         .ok()
         .and_then(|status| {
-            let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+            let line = status
+                .lines()
+                .find(|line| line.split(':').next() == Some(name))?;
             line.split_whitespace().nth(1)?.parse::<u64>().ok()
         })
         .unwrap_or(0)

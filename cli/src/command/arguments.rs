@@ -105,18 +105,21 @@ A shell inside a solid one is a cavity if it faces inward; facing outward it add
 
 What cannot be mended can be wrapped: --repair OUT.stl --wrap LENGTH makes a new, closed mesh around what the triangles wind around, on a grid with cells of that length. Holes are closed by smooth sheets; parts and gaps thinner than a cell may be lost; edges are rounded within a cell where shells or holes meet. A quarter of the particle spacing is a good length.
 
+Of an outline: sides that cross or touch, loops that overlap or touch, are doubled or have no area, spikes, points that repeat; and what each loop is to the body (its direction does not matter). What `sphpack pack` mends by itself (it says so): doubled loops, loops without area, spikes; loops that overlap, where they run the same way round and none is within another; loops that touch; a loop that crosses itself, where that matters to less than 1 % of its area. Loops in any other tangle are refused: what they bound would be a guess.
+
 Examples:
   sphpack check body.stl                                     what is wrong, and whether it can be packed
   sphpack check body.stl --spacing 0.02                      also what is thinner than a particle
   sphpack check body.stl --repair mended.stl                 mends it and writes the result
   sphpack check body.stl --repair mended.stl --fill-holes 5  also closes holes up to 5 across, as flat as can be
   sphpack check body.stl --repair mended.stl --wrap 0.1      makes a new mesh around whatever there is
+  sphpack check outline.svg --repair mended.csv              mends an outline and writes it as rows of x,y
 
 Exit status: 0 where the body can be packed (after what pack mends by itself, or the repair asked for); 2 where not.")]
 pub(super) struct CheckArguments {
     /// The body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
     pub(super) body: PathBuf,
-    /// Write the mended mesh here (binary .stl); nothing where it cannot be mended
+    /// Write the mended mesh (binary .stl) or outline (.csv) here; nothing where it cannot be mended
     #[arg(long, value_name = "FILE")]
     pub(super) repair: Option<PathBuf>,
     /// With --repair: close holes up to this size across

@@ -7,9 +7,11 @@ use sphpack_geometry::{HoleLimit, Mesh, Soup};
 use super::arguments::CheckArguments;
 use super::{outputs, say};
 use crate::Error;
+use crate::body_file::body_format;
 use crate::error::{BAD_INPUT, DONE};
-use crate::examined::{Examine, Examined, Mend, MeshFindings};
+use crate::examined::{Examine, Examined, Mend, MendedBody};
 use crate::files::WholeFiles;
+use crate::findings::{DefectFound, MeshFindings, OutlineFindings};
 use crate::picture::grouped;
 
 /// Holes and shells that are named one by one, at most.
@@ -44,8 +46,18 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
             "--wrap closes all holes; leave out --fill-holes".into(),
         ));
     }
+    let dimension = body_format(&arguments.body)?.dimension();
+    let (ending, what) = match dimension {
+        2 => ("csv", "the mended outline is rows of x,y"),
+        _ => ("stl", "the mended mesh is an STL file"),
+    };
+    if dimension == 2 && (arguments.wrap.is_some() || arguments.fill_holes.is_some()) {
+        return Err(Error::Usage(
+            "--wrap and --fill-holes are for meshes; an outline is mended by --repair OUT.csv alone".into(),
+        ));
+    }
     for (path, wanted, words) in [
-        (&arguments.repair, "stl", "the mended mesh is an STL file"),
+        (&arguments.repair, ending, what),
         (&arguments.report, "json", "the report is JSON"),
     ] {
         if let Some(path) = path {
@@ -69,21 +81,19 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
             (None, None) => Mend::AsPacking,
         },
     };
-    let (examined, mesh) = Examined::of(&arguments.body, &what)?;
+    let (examined, body) = Examined::of(&arguments.body, &what)?;
     let mut files = WholeFiles::new(arguments.force);
     let mut written = Vec::new();
-    if let Some(path) = &arguments.repair {
-        if examined.dimension == 2 {
-            return Err(Error::Usage(
-                "--repair mends meshes; outlines are right or refused with the place".into(),
-            ));
+    if let (Some(path), Some(body)) = (&arguments.repair, &body) {
+        match body {
+            MendedBody::Mesh(mesh) => {
+                let mended = as_in_a_file(mesh)
+                    .map_err(|e| Error::input(path, format!("the mended mesh does not survive the 32-bit numbers of an STL file ({e}); nothing was written")))?;
+                files.write(path, |to| mended.write_stl(to))?;
+            }
+            MendedBody::Outline(outline) => files.write(path, |to| outline.write_csv(to))?,
         }
-        if let Some(mesh) = &mesh {
-            let mended = as_in_a_file(mesh)
-                .map_err(|e| Error::input(path, format!("the mended mesh does not survive the 32-bit numbers of an STL file ({e}); nothing was written")))?;
-            files.write(path, |to| mended.write_stl(to))?;
-            written.push(path.display().to_string());
-        }
+        written.push(path.display().to_string());
     }
     let json = serde_json::to_string_pretty(&examined)
         .map_err(|e| Error::System(format!("the findings cannot be written as JSON: {e}")))?
@@ -165,6 +175,9 @@ fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) ->
     );
     if let Some(mesh) = &examined.mesh {
         mesh_words(&mut text, mesh);
+    }
+    if let Some(outline) = &examined.outline {
+        outline_words(&mut text, outline);
     }
     for (number, repair) in examined.repairs.iter().enumerate() {
         line(&mut text, if number == 0 { "mended" } else { "" }, repair);
@@ -275,13 +288,7 @@ fn mesh_words(text: &mut String, mesh: &MeshFindings) {
             &format!("and {} more", grouped(mesh.shells.len() - MOST_LISTED)),
         );
     }
-    for (number, defect) in mesh.defects.iter().enumerate() {
-        line(
-            text,
-            if number == 0 { "defects" } else { "" },
-            &defect.words,
-        );
-    }
+    defect_words(text, &mesh.defects);
     for (number, hole) in mesh.holes.iter().enumerate().take(MOST_LISTED) {
         line(
             text,
@@ -304,4 +311,52 @@ fn mesh_words(text: &mut String, mesh: &MeshFindings) {
             ),
         );
     }
+}
+
+fn defect_words(text: &mut String, defects: &[DefectFound]) {
+    for (number, defect) in defects.iter().enumerate() {
+        let what = if number == 0 { "defects" } else { "" };
+        line(text, what, &defect.words);
+    }
+}
+
+fn outline_words(text: &mut String, outline: &OutlineFindings) {
+    line(
+        text,
+        "outline",
+        &format!("{} points", grouped(outline.points)),
+    );
+    for (number, one) in outline.loops.iter().enumerate().take(MOST_LISTED) {
+        let inside = match one.inside {
+            Some(outer) => format!(", inside loop {}", outer + 1),
+            None => String::new(),
+        };
+        line(
+            text,
+            if number == 0 { "loops" } else { "" },
+            &format!(
+                "{}: {}{inside}; {} points, {}, length {}, area {}, from {} to {}",
+                number + 1,
+                one.role,
+                grouped(one.points),
+                if one.is_clockwise {
+                    "clockwise"
+                } else {
+                    "counter-clockwise"
+                },
+                short(one.length),
+                short(one.area),
+                place(&one.min),
+                place(&one.max)
+            ),
+        );
+    }
+    if outline.loops.len() > MOST_LISTED {
+        line(
+            text,
+            "",
+            &format!("and {} more", grouped(outline.loops.len() - MOST_LISTED)),
+        );
+    }
+    defect_words(text, &outline.defects);
 }

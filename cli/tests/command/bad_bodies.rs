@@ -99,7 +99,12 @@ fn outline_files() {
     refuse(
         "bow-tie.csv",
         "0,0\n2,2\n2,0\n0,1\n",
-        &["meets itself", "move or remove"],
+        &["1 pair of sides", "cross", "in the order"],
+    );
+    refuse(
+        "astride.csv",
+        "0,0\n2,0\n2,2\n0,2\n\n1,1\n1,3\n3,3\n3,1\n",
+        &["overlap", "near (2, 1)", "the same way round"],
     );
     refuse("binary.csv", [200, 1, 2, 3, 200], &["text"]);
 }

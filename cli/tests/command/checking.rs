@@ -108,14 +108,69 @@ fn outlines() {
     for part in ["perimeter 4, area 1", "nothing is thinner", "as it is"] {
         assert!(words.contains(part), "{words}");
     }
-    desk.refuse(
-        &["check", "bow-tie.csv"],
-        &["meets itself", "move or remove"],
-    );
-    desk.refuse(
-        &["check", "square.csv", "--repair", "out.stl"],
-        &["outlines"],
-    );
+    let refused = desk.run(&["check", "bow-tie.csv", "--repair", "out.csv"]);
+    assert_eq!(refused.status, Some(2));
+    for part in [
+        "1 pair of sides",
+        "undecided",
+        "cannot be packed",
+        "in the order",
+    ] {
+        assert!(refused.stdout.contains(part), "{}", refused.stdout);
+    }
+    assert!(!desk.files().contains(&"out.csv".to_owned()));
+    for (arguments, part) in [
+        (&["--repair", "out.stl"][..], "name it .csv"),
+        (&["--repair", "out.csv", "--wrap", "1"], "for meshes"),
+        (&["--repair", "out.csv", "--fill-holes", "1"], "for meshes"),
+    ] {
+        let whole = [&["check", "square.csv"], arguments].concat();
+        desk.refuse(&whole, &[part]);
+    }
+}
+
+/// Two squares that overlap, one of them with a spike, one there twice, and a line.
+const DIRTY: &str =
+    "0,0\n2,0\n3,0\n2,0\n2,2\n0,2\n\n1,1\n3,1\n3,3\n1,3\n\n3,1\n3,3\n1,3\n1,1\n\n5,5\n6,6\n7,7\n";
+
+#[test]
+fn dirty_outlines() {
+    let desk = Desk::new().with("dirty.csv", DIRTY);
+    let words = desk.succeed(&["check", "dirty.csv"]).stdout;
+    for part in [
+        "1 pair of loops that overlap, near (2, 1), in loop 1",
+        "1 loop that is there already",
+        "1 spike",
+        "1 loop without area",
+        "2 loops that overlapped were joined",
+        "area 7",
+        "mends this by itself",
+    ] {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+    let json = desk.succeed(&["check", "dirty.csv", "--json"]).stdout;
+    let json: Value = serde_json::from_str(&json).unwrap();
+    let outline = &json["outline"];
+    assert_eq!(outline["defects"].as_array().unwrap().len(), 4);
+    assert_eq!(outline["defects"][0]["kind"], "overlap");
+    assert_eq!(outline["loops"][2]["role"], "nothing");
+    assert_eq!(json["repairs"].as_array().unwrap().len(), 4);
+    desk.succeed(&["check", "dirty.csv", "--repair", "mended.csv"]);
+    let words = desk.succeed(&["check", "mended.csv"]).stdout;
+    assert!(words.contains("can be packed as it is"), "{words}");
+    assert!(words.contains("area 7"), "{words}");
+    let run = desk.succeed(&[
+        "pack",
+        "dirty.csv",
+        "--spacing",
+        "0.5",
+        "--report",
+        "report.json",
+    ]);
+    assert!(run.stderr.contains("were joined"), "{}", run.stderr);
+    let report: Value = serde_json::from_slice(&desk.read("report.json")).unwrap();
+    assert_eq!(report["bodies"][0]["volume_true"], 7.0);
+    assert_eq!(report["bodies"][0]["repairs"].as_array().unwrap().len(), 4);
 }
 
 #[test]

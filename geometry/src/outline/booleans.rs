@@ -2,16 +2,15 @@
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::float::single::SingleFloatOverlay;
 
-use sphpack_neighbors::point;
+use sphpack_neighbors::{Bounds, point};
 
-use super::{Outline, offset};
+use super::{Outline, engine, offset};
 use crate::segment::signed_area;
 
 /// Pieces and holes that are thinner on average than this, in parts of the outline's size, are left out: they come of
 /// curves that run along each other and are sampled at different points.
-const SLIVER: f64 = 1e-6;
+pub(crate) const SLIVER: f64 = 1e-6;
 
 impl Outline {
     /// What is left of the body where `other` has all its room, O(n log n) for n points of both; `None` where nothing
@@ -57,31 +56,76 @@ impl Outline {
         };
         let loops =
             |outline: &Self| -> Vec<Vec<[f64; 2]>> { outline.loops().map(<[_]>::to_vec).collect() };
-        let shapes = loops(self).overlay_as::<i64>(&loops(other), rule, FillRule::NonZero);
-        let mut left = Vec::new();
-        for shape in shapes {
-            // The outer loop of a piece, then its holes.
-            for (number, points) in shape.into_iter().enumerate() {
-                let mut points = offset::tidy(points, offset::MERGE * size);
-                let area = signed_area(&points);
-                let is_thin =
-                    points.len() < 3 || 2.0 * area.abs() <= SLIVER * size * perimeter(&points);
-                if is_thin && number == 0 {
-                    break;
-                }
-                if !is_thin {
-                    if (area > 0.0) != (number == 0) {
-                        points.reverse();
-                    }
-                    left.push(points);
-                }
-            }
-        }
+        let shapes = engine::overlay(&loops(self), &loops(other), rule, FillRule::NonZero);
+        let left = without_slivers(shapes, size);
         (!left.is_empty()).then(|| Self::assemble(left))
     }
 }
 
-fn perimeter(points: &[[f64; 2]]) -> f64 {
+/// The loops of shapes as the engine gives them: outer ones counter-clockwise, holes clockwise; neither where they are
+/// thin.
+fn without_slivers(shapes: Vec<Vec<Vec<[f64; 2]>>>, size: f64) -> Vec<Vec<[f64; 2]>> {
+    let mut left = Vec::new();
+    for shape in shapes {
+        // The outer loop of a piece, then its holes.
+        for (number, points) in shape.into_iter().enumerate() {
+            let mut points = offset::tidy(points, offset::MERGE * size);
+            let area = signed_area(&points);
+            let is_thin =
+                points.len() < 3 || 2.0 * area.abs() <= SLIVER * size * perimeter(&points);
+            if is_thin && number == 0 {
+                break;
+            }
+            if !is_thin {
+                if (area > 0.0) != (number == 0) {
+                    points.reverse();
+                }
+                left.push(points);
+            }
+        }
+    }
+    left
+}
+
+/// Which places belong to what loops bound, by how often they wind around it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Filled {
+    /// Once or more counter-clockwise.
+    Positive,
+    /// Once or more clockwise.
+    Negative,
+    /// Any odd number of times.
+    Odd,
+}
+
+/// The boundary of what loops in any position bound, O(n log n) for n sides and crossings, as exact as
+/// [`Outline::minus`]: outer loops counter-clockwise, holes clockwise, thin ones left out.
+pub(crate) fn resolved(loops: &[Vec<[f64; 2]>], filled: Filled) -> Vec<Vec<[f64; 2]>> {
+    let rule = match filled {
+        Filled::Positive => FillRule::Positive,
+        Filled::Negative => FillRule::Negative,
+        Filled::Odd => FillRule::EvenOdd,
+    };
+    let size = loops
+        .iter()
+        .map(|points| Bounds::of(points))
+        .reduce(Bounds::union)
+        .map_or(0.0, |bounds| bounds.diagonal());
+    let shapes = engine::overlay(loops, &[], OverlayRule::Subject, rule);
+    without_slivers(shapes, size)
+}
+
+/// The area of what both sets of loops bound, each as [`resolved`] gives them.
+pub(crate) fn shared_area(one: &[Vec<[f64; 2]>], other: &[Vec<[f64; 2]>]) -> f64 {
+    engine::overlay(one, other, OverlayRule::Intersect, FillRule::NonZero)
+        .iter()
+        .flatten()
+        .map(|points| signed_area(points))
+        .sum()
+}
+
+/// The length of a loop.
+pub(crate) fn perimeter(points: &[[f64; 2]]) -> f64 {
     let next = points.iter().cycle().skip(1);
     points
         .iter()

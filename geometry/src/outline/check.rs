@@ -80,37 +80,42 @@ pub(super) fn no_meetings(outline: &Outline) -> Result<(), GeometryError> {
 
 /// The first pair of sides that meet where they must not, and where.
 pub(super) fn first_meeting(outline: &Outline) -> Option<(usize, usize, [f64; 2])> {
-    let end = |i: usize| outline.points[outline.next[i] as usize];
-    for i in 0..outline.points.len() {
-        let (a, b) = (outline.points[i], end(i));
-        let mut found: Option<(usize, [f64; 2])> = None;
-        let range = Bounds::of(&[a, b]);
-        outline.bvh.overlapping(&range, |j| {
-            if j <= i || found.is_some_and(|(k, _)| k <= j) {
-                return;
-            }
-            let (c, d) = (outline.points[j], end(j));
-            let joined = if outline.next[i] as usize == j {
-                Some((outline.sides[i].edge, outline.sides[j].edge, c))
-            } else if outline.next[j] as usize == i {
-                Some((outline.sides[j].edge, outline.sides[i].edge, a))
-            } else {
-                None
-            };
-            let place = match joined {
-                // Neighbours meet elsewhere only where one folds back onto the other.
-                Some((from, to, at)) => {
-                    (cross(from, to) == 0.0 && point::dot(from, to) < 0.0).then_some(at)
-                }
-                None => meeting(a, b, c, d),
-            };
-            if let Some(place) = place {
-                found = Some((j, place));
+    (0..outline.points.len()).find_map(|i| {
+        let mut first: Option<(usize, [f64; 2])> = None;
+        meetings_of(outline, i, |j, place| {
+            if first.is_none_or(|(k, _)| j < k) {
+                first = Some((j, place));
             }
         });
-        if let Some((j, place)) = found {
-            return Some((i, j, place));
+        first.map(|(j, place)| (i, j, place))
+    })
+}
+
+/// The sides after side `i` that it meets where it must not, in any order, and where.
+pub(crate) fn meetings_of(outline: &Outline, i: usize, mut found: impl FnMut(usize, [f64; 2])) {
+    let end = |i: usize| outline.points[outline.next[i] as usize];
+    let (a, b) = (outline.points[i], end(i));
+    outline.bvh.overlapping(&Bounds::of(&[a, b]), |j| {
+        if j <= i {
+            return;
         }
-    }
-    None
+        let (c, d) = (outline.points[j], end(j));
+        let joined = if outline.next[i] as usize == j {
+            Some((outline.sides[i].edge, outline.sides[j].edge, c))
+        } else if outline.next[j] as usize == i {
+            Some((outline.sides[j].edge, outline.sides[i].edge, a))
+        } else {
+            None
+        };
+        let place = match joined {
+            // Neighbours meet elsewhere only where one folds back onto the other.
+            Some((from, to, at)) => {
+                (cross(from, to) == 0.0 && point::dot(from, to) < 0.0).then_some(at)
+            }
+            None => meeting(a, b, c, d),
+        };
+        if let Some(place) = place {
+            found(j, place);
+        }
+    });
 }

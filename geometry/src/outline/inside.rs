@@ -46,7 +46,7 @@ pub fn crossing_number(points: &[[f64; 2]], p: [f64; 2]) -> usize {
 /// Whether the ray from `p` in the direction +x crosses the side `ab`, its upper end excluded: then a ray through a
 /// vertex counts right.
 #[inline]
-pub(super) fn crosses(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> bool {
+pub(crate) fn crosses(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> bool {
     if (a[1] <= p[1]) == (b[1] <= p[1]) {
         return false;
     }

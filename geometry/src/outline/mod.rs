@@ -1,7 +1,8 @@
 //! Bodies in the plane: closed polygons and finely sampled curves.
 
-mod booleans;
-mod check;
+pub(crate) mod booleans;
+pub(crate) mod check;
+mod engine;
 mod inside;
 mod offset;
 mod shapes;
@@ -9,6 +10,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use inside::crosses;
 pub use inside::{angle_sum, crossing_number, winding_number};
 pub use offset::MITRE_LIMIT;
 
@@ -22,7 +24,7 @@ use crate::{Bvh, GeometryError, Similarity};
 pub const CORNER_DEGREES: f64 = 30.0;
 
 /// Consecutive points nearer than this, in parts of the outline's size, are one point.
-const SAME_POINT: f64 = 1e-13;
+pub(crate) const SAME_POINT: f64 = 1e-13;
 
 /// A closed outline: one or several loops of straight sides that do not meet, outer ones counter-clockwise, holes
 /// clockwise, so that the body is always on the left and normals point out of it.
@@ -90,13 +92,10 @@ impl Outline {
             // It is inside an odd number of others just where a ray crosses their sides an odd number of times.
             let (p, own) = (loops[k][0], self.starts[k]..self.starts[k + 1]);
             let mut is_hole = false;
-            self.bvh.visit(
-                |b| b.min[1] <= p[1] && p[1] <= b.max[1] && p[0] <= b.max[0],
-                |i| {
-                    let (a, b) = (self.points[i], self.points[self.next[i] as usize]);
-                    is_hole ^= !own.contains(&i) && inside::crosses(a, b, p);
-                },
-            );
+            self.beside(p, |i| {
+                let [a, b] = self.side(i);
+                is_hole ^= !own.contains(&i) && crosses(a, b, p);
+            });
             let counter_clockwise = crate::segment::signed_area(&loops[k]) > 0.0;
             if counter_clockwise == is_hole {
                 // The first point stays the first.
@@ -108,7 +107,7 @@ impl Outline {
     }
 
     /// Sides, normals, corners and tree of the loops as they are.
-    fn assemble(loops: Vec<Vec<[f64; 2]>>) -> Self {
+    pub(crate) fn assemble(loops: Vec<Vec<[f64; 2]>>) -> Self {
         let mut starts = vec![0];
         let mut points = Vec::with_capacity(loops.iter().map(Vec::len).sum());
         for one in &loops {
@@ -185,8 +184,21 @@ impl Outline {
         )
     }
 
+    /// The ends of side `i`.
+    pub(crate) fn side(&self, i: usize) -> [[f64; 2]; 2] {
+        [self.points[i], self.points[self.next[i] as usize]]
+    }
+
+    /// The sides that the ray from `p` in the direction +x may cross, and some more.
+    pub(crate) fn beside(&self, p: [f64; 2], each: impl FnMut(usize)) {
+        self.bvh.visit(
+            |b| b.min[1] <= p[1] && p[1] <= b.max[1] && p[0] <= b.max[0],
+            each,
+        );
+    }
+
     /// Loop and place within it of point `i`.
-    fn address(&self, i: usize) -> (usize, usize) {
+    pub(crate) fn address(&self, i: usize) -> (usize, usize) {
         let k = self.starts.partition_point(|&start| start <= i) - 1;
         (k, i - self.starts[k])
     }

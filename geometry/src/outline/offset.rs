@@ -3,13 +3,13 @@
 //! Every side sweeps a strip as it moves. What is left of the body inside (or what it grows to outside) is the body
 //! minus (plus) all strips and the wedges between neighbours that move apart. The raw offset below winds around each
 //! place as often as body and strips together do, so the result is where its winding number is positive; an overlay
-//! engine finds that. Only this file and `booleans` know the engine.
+//! engine finds that.
 
 use i_overlay::core::fill_rule::FillRule;
-use i_overlay::float::simplify::SimplifyShape;
+use i_overlay::core::overlay_rule::OverlayRule;
 use sphpack_neighbors::{Bounds, point};
 
-use super::{Outline, check::first_meeting};
+use super::{Outline, check::first_meeting, engine};
 use crate::GeometryError;
 use crate::segment::{cross, signed_area};
 
@@ -126,11 +126,9 @@ impl Outline {
     }
 }
 
-/// The boundary of where the loops wind around a positive number of times. The 64-bit grid of the engine moves
-/// points by 10⁻¹⁶ of their extent.
-fn positive(loops: &Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
-    loops
-        .simplify_shape_as::<i64>(FillRule::Positive)
+/// The boundary of where the loops wind around a positive number of times.
+fn positive(loops: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
+    engine::overlay(loops, &[], OverlayRule::Subject, FillRule::Positive)
         .into_iter()
         .flatten()
         .collect()

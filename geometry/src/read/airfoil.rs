@@ -97,7 +97,7 @@ fn surfaces(rows: &[Row], has_name: bool) -> Result<Option<(Run, Run)>, Geometry
         return Ok(None);
     };
     let [upper, lower] = first.point;
-    let is_count = |x: f64| (2.0..1e9).contains(&x) && x.fract() == 0.0;
+    let is_count = |x: f64| x >= 2.0 && x.fract() == 0.0;
     let fits = upper + lower == points.len() as f64;
     let stands_alone = points.first().is_some_and(|row| row.follows_blank);
     if !(is_count(upper) && is_count(lower) && (fits && has_name || stands_alone)) {

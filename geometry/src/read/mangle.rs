@@ -59,8 +59,14 @@ pub(crate) struct Mangler {
 }
 
 impl Mangler {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self { state: seed }
+    /// The generator of a block of inputs; blocks of one seed have nothing to do with each other.
+    pub(crate) fn new(seed: u64, block: u64) -> Self {
+        let mut first = Self {
+            state: seed ^ block.wrapping_mul(0xd1b5_4a32_d192_ed03),
+        };
+        Self {
+            state: first.next(),
+        }
     }
 
     fn next(&mut self) -> u64 {

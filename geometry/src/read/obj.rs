@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use super::lines::{Lines, number, row, shown, whole, words};
-use super::{Solid, fan, loosened};
+use super::{Faces, Solid, loosened};
 use crate::GeometryError;
 
 /// A part for each name that an object or group has; what comes before the first name is a part without one. Texture
@@ -52,7 +52,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
                     }
                     corners.push(vertex);
                 }
-                parts.current().extend(fan(&corners));
+                parts.current().add(&corners);
             }
             Some(name @ (b"o" | b"g")) => {
                 let line = line.trim_ascii();
@@ -86,13 +86,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
             ),
         ));
     }
-    Ok(loosened(&vertices, parts.all))
+    loosened(&vertices, parts.all)
 }
 
 /// Triangles by the name of their object or group.
 #[derive(Default)]
 struct Parts {
-    all: Vec<(String, Vec<[u32; 3]>)>,
+    all: Vec<(String, Faces)>,
     numbers: HashMap<String, usize>,
     name: String,
     /// The part of `name`, once it has faces.
@@ -100,10 +100,10 @@ struct Parts {
 }
 
 impl Parts {
-    fn current(&mut self) -> &mut Vec<[u32; 3]> {
+    fn current(&mut self) -> &mut Faces {
         let number = *self.open.get_or_insert_with(|| {
             *self.numbers.entry(self.name.clone()).or_insert_with(|| {
-                self.all.push((self.name.clone(), Vec::new()));
+                self.all.push((self.name.clone(), Faces::default()));
                 self.all.len() - 1
             })
         });

@@ -3,17 +3,17 @@
 use std::path::Path;
 
 use super::BodyFormat;
-use crate::{GeometryError, Outline};
+use crate::{GeometryError, Outline, Sketch};
 
 impl Outline {
-    /// Reads an outline: rows of x,y, an airfoil's coordinates, or a drawing in SVG, by its content.
+    /// Reads an outline without defects: rows of x,y, an airfoil's coordinates, or a drawing in SVG, by its content.
     ///
-    /// Rows are "x,y" (or "x y", "x;y"); `#` starts a comment, one header or title is allowed, a blank line ends a
+    /// Rows are "x,y" (or "x y", "x;y"; with decimal commas where ";" or a tab parts them); `#` starts a comment, one header or title is allowed, a blank line ends a
     /// loop. Airfoils are Selig's (once round) or Lednicer's (upper and lower surface, with their numbers of points).
     /// Of a drawing, every closed path, polygon, rectangle, circle and ellipse is a loop, transforms applied; its units
     /// are those of the outermost viewBox (width and height do not matter), and since its y points down, (x, y) is read
     /// as (x, −y). Curves become straight sides within [`FLATTENING_OVER_SIZE`](crate::FLATTENING_OVER_SIZE) of the
-    /// drawing's size.
+    /// drawing's size. [`Sketch::read`] takes outlines with defects too.
     ///
     /// # Errors
     /// [`GeometryError::InFile`] with the file's name around [`GeometryError::Unreadable`], what
@@ -48,6 +48,27 @@ impl Outline {
     /// As [`Outline::from_csv`], without a file's name.
     pub fn from_text(text: &str) -> Result<Self, GeometryError> {
         Self::from_bytes(BodyFormat::Csv, text.as_bytes())
+    }
+}
+
+impl Sketch {
+    /// Reads an outline with whatever defects it has, from files as those of [`Outline::read`].
+    ///
+    /// # Errors
+    /// [`GeometryError::InFile`] with the file's name around [`GeometryError::Unreadable`], what
+    /// [`BodyFormat::detect`] or [`BodyFormat::loops`] finds, or what [`Sketch::new`] finds.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, GeometryError> {
+        in_file(path.as_ref(), |bytes, extension| {
+            Self::from_bytes(BodyFormat::detect(bytes, extension)?, bytes)
+        })
+    }
+
+    /// [`Sketch::read`] for a file's content that is already in memory, in a format that is known.
+    ///
+    /// # Errors
+    /// As [`Sketch::read`], without a file's name.
+    pub fn from_bytes(format: BodyFormat, bytes: &[u8]) -> Result<Self, GeometryError> {
+        Self::new(format.loops(bytes)?)
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) fn content(line: &[u8]) -> &[u8] {
 }
 
 fn separates(b: &u8) -> bool {
-    matches!(b, b',' | b';' | 0x1a) || b.is_ascii_whitespace()
+    matches!(b, b',' | b';' | b'"' | 0x1a) || b.is_ascii_whitespace()
 }
 
 /// The fields of a row.
@@ -54,6 +54,9 @@ pub(super) fn fields(content: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 /// Two finite numbers, or what is wrong with them.
 pub(super) fn pair(content: &[u8]) -> Result<[f64; 2], String> {
+    if let Some(pair) = with_decimal_commas(content) {
+        return Ok(pair);
+    }
     let mut fields = fields(content);
     let (Some(x), Some(y), None) = (fields.next(), fields.next(), fields.next()) else {
         return Err(format!(
@@ -69,6 +72,30 @@ pub(super) fn pair(content: &[u8]) -> Result<[f64; 2], String> {
             shown(content)
         )),
     }
+}
+
+/// Two numbers with decimal commas: only where another separator is between them and no point is in them, so that it
+/// is plain what the commas mean.
+fn with_decimal_commas(content: &[u8]) -> Option<[f64; 2]> {
+    if !content.contains(&b',') || content.contains(&b'.') {
+        return None;
+    }
+    let parts = |mark: u8| {
+        let mut parts = content.split(move |&b| b == mark).map(<[u8]>::trim_ascii);
+        let pair = (parts.next()?, parts.next()?);
+        parts.next().is_none().then_some(pair)
+    };
+    let (x, y) = parts(b';').or_else(|| parts(b'\t'))?;
+    let value = |part: &[u8]| {
+        let commas = part.iter().filter(|&&b| b == b',').count();
+        let is_within = part.first() != Some(&b',') && part.last() != Some(&b',');
+        let point: Vec<u8> = part
+            .iter()
+            .map(|&b| if b == b',' { b'.' } else { b })
+            .collect();
+        (commas <= 1 && is_within).then(|| number(&point)).flatten()
+    };
+    Some([value(x)?, value(y)?])
 }
 
 /// Binary content is an error.

@@ -25,7 +25,10 @@ use crate::{GeometryError, Similarity};
 
 pub use body::Mended;
 pub use repair::{HoleLimit, Repair, Repaired};
+pub(crate) use report::four_digits;
 pub use report::{Defect, DefectKind, Hole, MeshReport, Shell, ShellRole};
+pub(crate) use shells::Joined;
+pub(crate) use triangulate::{MOST_POINTS, least_area};
 
 /// Triangles over shared vertices, with any defect a file can have: holes, flipped or doubled triangles, shells that
 /// overlap. [`Soup::check`] says what is wrong, [`Soup::repaired`] mends what can safely be mended, and

@@ -231,7 +231,7 @@ impl fmt::Display for Place {
 }
 
 /// Four digits are enough to find a place by.
-pub(super) fn four_digits(x: f64) -> f64 {
+pub(crate) fn four_digits(x: f64) -> f64 {
     if x == 0.0 || !x.is_finite() {
         return x;
     }

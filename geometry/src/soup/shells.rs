@@ -24,18 +24,18 @@ pub(super) struct Piece {
 
 /// Numbers sets that are joined one by one.
 #[derive(Debug)]
-pub(super) struct Joined {
+pub(crate) struct Joined {
     parent: Vec<u32>,
 }
 
 impl Joined {
-    pub(super) fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self {
             parent: (0..count as u32).collect(),
         }
     }
 
-    pub(super) fn find(&mut self, mut i: u32) -> u32 {
+    pub(crate) fn find(&mut self, mut i: u32) -> u32 {
         while self.parent[i as usize] != i {
             let above = self.parent[self.parent[i as usize] as usize];
             self.parent[i as usize] = above;
@@ -45,7 +45,7 @@ impl Joined {
     }
 
     /// The lower number stays.
-    pub(super) fn join(&mut self, i: u32, j: u32) {
+    pub(crate) fn join(&mut self, i: u32, j: u32) {
         let (a, b) = (self.find(i), self.find(j));
         self.parent[a.max(b) as usize] = a.min(b);
     }

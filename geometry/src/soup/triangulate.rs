@@ -5,7 +5,7 @@ use sphpack_neighbors::{Bounds, point};
 use crate::mesh::triangle;
 
 /// Loops of more points get a fan around their middle: the search grows with the cube.
-pub(super) const MOST_POINTS: usize = 300;
+pub(crate) const MOST_POINTS: usize = 300;
 
 /// What a bad shape costs, in parts of the squared longest side, for each time that exceeds the area: just enough that
 /// of all ways to fill a flat loop the one with compact triangles is taken.
@@ -18,7 +18,7 @@ const FLAT: f64 = 1e-9;
 /// `None` where `is_taken` forbids all choices. `is_taken(i, j)`: whether no new side may run between two points.
 /// O(n³); dynamic programming over the parts of the loop, after Barequet and Sharir, "Filling gaps in the boundary
 /// of a polyhedron", CAGD 12, 1995.
-pub(super) fn least_area(
+pub(crate) fn least_area(
     points: &[[f64; 3]],
     is_taken: impl Fn(usize, usize) -> bool,
 ) -> Option<Vec<[usize; 3]>> {

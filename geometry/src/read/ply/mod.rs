@@ -8,7 +8,7 @@ use sphpack_neighbors::point;
 use self::header::{Element, Encoding, Scalar};
 use self::numbers::{BinaryNumbers, Numbers, TextNumbers};
 use super::lines::whole;
-use super::{Solid, fan, loosened};
+use super::{Faces, Solid, loosened};
 use crate::GeometryError;
 
 /// One part without a name. Elements and properties other than vertices' x, y, z and faces' lists of vertices are
@@ -30,10 +30,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
             BinaryNumbers::<true>::new(header.body, bytes.len()),
         )?,
     }
-    let PolygonSurface {
-        vertices,
-        triangles,
-    } = surface;
+    let PolygonSurface { vertices, faces } = surface;
+    let triangles = faces.triangles();
     if triangles.is_empty() {
         return Err(whole(format!(
             "the PLY file holds {} points and no faces of three of them; a body needs a closed surface, export it as a mesh",
@@ -49,14 +47,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
             });
         }
     }
-    Ok(loosened(&vertices, vec![(String::new(), triangles)]))
+    loosened(&vertices, vec![(String::new(), faces)])
 }
 
 /// What is of use in the file.
 #[derive(Debug, Default)]
 struct PolygonSurface {
     vertices: Vec<[f64; 3]>,
-    triangles: Vec<[u32; 3]>,
+    faces: Faces,
 }
 
 /// What becomes of a property's numbers.
@@ -121,7 +119,7 @@ impl PolygonSurface {
                     }
                     self.vertices.push(vertex);
                 } else {
-                    self.triangles.extend(fan(&corners));
+                    self.faces.add(&corners);
                 }
             }
         }

@@ -56,7 +56,7 @@ fn files_with_any_byte_changed() {
 fn files_mangled_at_random() {
     for format in BodyFormat::ALL {
         let files: Vec<Vec<u8>> = files(format).into_iter().map(|file| file.1).collect();
-        let mut mangler = Mangler::new(1);
+        let mut mangler = Mangler::new(1, 0);
         for _ in 0..INPUTS {
             survive(format, &mangler.mangled(&files));
         }

@@ -9,7 +9,7 @@ mod outlines;
 
 use std::path::PathBuf;
 
-use crate::{BodyFormat, GeometryError, Mesh, Outline, Surface};
+use crate::{BodyFormat, GeometryError, Mesh, Outline, Sketch, Surface};
 
 /// The folder of a format in the corpus.
 fn folder(format: BodyFormat) -> &'static str {
@@ -52,7 +52,7 @@ fn file(format: BodyFormat, name: &str) -> Vec<u8> {
 fn contents(format: BodyFormat, bytes: &[u8]) -> Result<f64, GeometryError> {
     Ok(match format.dimension() {
         3 => Mesh::from_bytes(format, bytes)?.volume(),
-        _ => Outline::from_bytes(format, bytes)?.volume(),
+        _ => Sketch::from_bytes(format, bytes)?.body()?.outline.volume(),
     })
 }
 

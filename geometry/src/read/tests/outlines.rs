@@ -91,3 +91,22 @@ fn bad_airfoils_say_where() {
     dat("", &["0 different points"]);
     dat("a\0b", &["text"]);
 }
+
+#[test]
+fn decimal_commas_where_they_are_plain() {
+    let area = |name: &str| contents(BodyFormat::Csv, &file(BodyFormat::Csv, name));
+    assert_eq!(area("decimal_commas.csv"), Ok(1.875));
+    assert_eq!(area("quoted.csv"), Ok(0.5));
+    let tabs = b"0,0\t0\n1,5\t0\n1,5\t1,25\n";
+    assert_eq!(contents(BodyFormat::Csv, tabs), Ok(0.9375));
+    for row in [
+        "1,5,2,5",
+        "1,5 2,5",
+        "1,5;2.5",
+        "1,5;2,5,1",
+        ",5;1,0",
+        "1,0;5,",
+    ] {
+        refused(BodyFormat::Csv, format!("0;0\n{row}\n1;1\n"), &["line 2"]);
+    }
+}
