@@ -104,10 +104,12 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
              The paper does not say by which h/∆s it judges, nor how deep its bodies are filled; here by the quintic\n\
              kernel at h/∆s = 1.0, over all particles and over those outside or within ∆s of the surface. Our standard\n\
              layers fill the body to its medial axis, where they collide: that is most of their variation on the\n\
-             zig-zag. The coupled method starts from the paper's rectangular lattice.\n\n{variation}\n\
+             zig-zag. The coupled method starts from the paper's rectangular lattice; in\n\
+             concave corners its first pass presses particles together, on the zig-zag up to one place.\n\n{variation}\n\
              ## Paper 002's tanks\n\n\
              β = 1, α = 5·10⁻³, CFL = 1, quintic kernel at h/∆s = 1.2; judged as packed. The largest residuals sit in\n\
-             the acute corners.\n\n{tanks}\n\
+             the acute corners, where two particles would end at one place: beside the paper, pairs nearer than 0.7 ∆s\n\
+             repel each other, and residuals are counted without that.\n\n{tanks}\n\
              {}",
             if settings.quick {
                 " (the quick scenes only)"
