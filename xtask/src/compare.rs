@@ -97,7 +97,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         let text = format!(
             "# Every method on every scene\n\n\
              Each method with its defaults, its own kernel and h/∆s among them; all judged by the quintic kernel at\n\
-             h/∆s = 1.2{}. In space methods stop after 2,000 iterations. Regenerate with `cargo xtask compare --write`. Times are wall-clock seconds and depend on\n\
+             h/∆s = 1.2{}. In space methods stop after 2,000 iterations. Regenerate with `cargo xtask compare --data DIR --write`. Times are wall-clock seconds and depend on\n\
              the machine.\n\n\
              ![Error of the density against time, every method on every scene](speed-accuracy.svg)\n\n{table}\n\
              ## Paper 001's comparison\n\n\
