@@ -63,6 +63,8 @@ pub(crate) fn pack<const D: usize>(
         Method::Relaxation => relaxation(packing).pack(problem, observer),
         Method::Complex => Complex {
             relaxation: relaxation(packing),
+            levelling: packing.settling().levelling,
+            ..Complex::default()
         }
         .pack(problem, observer),
     };

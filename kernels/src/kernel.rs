@@ -43,6 +43,27 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
         let (_, slope_over_r) = self.value_and_slope_over_r(r_squared);
         difference.map(|d| slope_over_r * d)
     }
+
+    /// ∇∇W for `difference` = x_i − x_j: (W″ − W′/r) e⊗e + (W′/r) I. W″ is a central difference of the slope, good to
+    /// some nine digits of the largest away from joins between pieces.
+    fn hessian(&self, difference: [f64; D]) -> [[f64; D]; D] {
+        let r_squared: f64 = difference.iter().map(|d| d * d).sum();
+        let r = r_squared.sqrt();
+        let (_, over_r) = self.value_and_slope_over_r(r_squared);
+        let step = 1e-5 * self.smoothing_length();
+        let along = if r > step {
+            let second = (self.slope(r + step) - self.slope(r - step)) / (2.0 * step);
+            (second - over_r) / r_squared
+        } else {
+            0.0
+        };
+        std::array::from_fn(|k| {
+            std::array::from_fn(|l| {
+                let both = along * difference[k] * difference[l];
+                both + if k == l { over_r } else { 0.0 }
+            })
+        })
+    }
 }
 
 /// The shape of a kernel in units of h: w(q) with q = r/h.

@@ -101,6 +101,25 @@ impl<const D: usize> WithKernel<D> for Properties {
         }
         prop_assert_eq!(w.gradient([0.0; D]), [0.0; D]);
 
+        // hessian = finite difference of the gradient, away from joins; isotropic at the origin.
+        let hessian = w.hessian(x);
+        let joins = [0.5 * end, h, 2.0 * h, end];
+        let far_from_joins = joins.iter().all(|join| (r - join).abs() > 3.0 * step);
+        for k in 0..D {
+            let at = |shift: f64| {
+                let mut y = x;
+                y[k] += shift;
+                w.gradient(y)
+            };
+            let (up, down) = (at(step), at(-step));
+            for l in 0..D {
+                let difference = (up[l] - down[l]) / (2.0 * step);
+                let scale = w.value_at_origin() / (h * h);
+                prop_assert!(!far_from_joins || (difference - hessian[k][l]).abs() < 1e-4 * scale);
+            }
+        }
+        prop_assert!(w.hessian([0.0; D])[0][0] <= 0.0);
+
         // The pair form says the same as value and slope.
         let (value, slope_over_r) = w.value_and_slope_over_r(r * r);
         prop_assert!((value - w.value(r)).abs() <= 1e-13 * w.value_at_origin());

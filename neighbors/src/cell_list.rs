@@ -377,31 +377,40 @@ impl<const D: usize> CellList<D> {
         self.chunks.iter().map(Chunk::lanes).sum()
     }
 
-    /// The particles within the support of target `i`, itself left out, ascending; an image counts as its particle,
-    /// and appears once for each image in reach. Empty where `i` is no target. For tests and tools, not for loops.
-    pub fn of(&self, i: usize, positions: &[[f64; D]]) -> Vec<usize> {
-        let Some(slot) = self.slot_of(i) else {
-            return Vec::new();
-        };
-        let (block, position) = (slot / LANES, |slot: usize| {
+    /// The particles within the support of target `i`, itself left out, with x_i − x_j; an image counts as its particle,
+    /// and appears once for each image in reach. Nothing where `i` is no target. One target at a time: for a few of
+    /// many, [`CellList::for_each_block`] goes over all.
+    pub fn around<'a>(
+        &'a self,
+        i: usize,
+        positions: &'a [[f64; D]],
+    ) -> impl Iterator<Item = (usize, [f64; D])> + 'a {
+        let position = |slot: usize| {
             let p = positions[self.particle[slot] as usize];
             self.shift
                 .get(slot)
                 .map_or(p, |&shift| point::add(p, shift))
-        });
-        let here = position(slot);
-        let mut found: Vec<usize> = self.chunks[block / BLOCKS_PER_CHUNK]
-            .block(block % BLOCKS_PER_CHUNK, slot, 1)
-            .candidates
-            .iter()
-            .map(|&other| other as usize)
-            .filter(|&other| {
-                other != slot
-                    && other < self.particle.len()
-                    && point::distance_squared(position(other), here) <= self.support * self.support
-            })
-            .map(|other| self.particle[other] as usize)
-            .collect();
+        };
+        let near = move |slot: usize| {
+            let (block, here) = (slot / LANES, position(slot));
+            self.chunks[block / BLOCKS_PER_CHUNK]
+                .block(block % BLOCKS_PER_CHUNK, slot, 1)
+                .candidates
+                .iter()
+                .map(|&other| other as usize)
+                .filter(move |&other| other != slot && other < self.particle.len())
+                .map(move |other| {
+                    let apart = point::sub(here, position(other));
+                    (self.particle[other] as usize, apart)
+                })
+                .filter(|(_, apart)| point::norm_squared(*apart) <= self.support * self.support)
+        };
+        self.slot_of(i).into_iter().flat_map(near)
+    }
+
+    /// The particles of [`CellList::around`], ascending. For tests and tools, not for loops.
+    pub fn of(&self, i: usize, positions: &[[f64; D]]) -> Vec<usize> {
+        let mut found: Vec<usize> = self.around(i, positions).map(|(j, _)| j).collect();
         found.sort_unstable();
         found
     }

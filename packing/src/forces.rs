@@ -17,7 +17,7 @@ use crate::repulsion::Repulsion;
 const REDUCTION_BLOCK: usize = 4096;
 
 /// A pressure against uneven density: p = p_b (1 + κ (Γ − Γ₀)) in place of the background pressure alone, with the
-/// energy ½ κ Σ_i V_i (Γ_i − Γ₀)² beside that of the background.
+/// energy ½ κ Σ_i V_i (Γ_i − Γ₀)² beside that of the background (linear where p would leave 0 … 2 p_b).
 ///
 /// Where an interior is disordered the background pressure alone rests with Γ above 1, by 0.1 to 0.2 % in the mean;
 /// a particle has D ways to go and one Γ, so tiny moves (0.02 ∆s) level it. Evaluations take a second pass over the
@@ -28,12 +28,28 @@ pub struct Levelling {
     pub stiffness: f64,
     /// Γ₀, that of the perfect lattice.
     pub target: f64,
+    /// Γ may be off by as much and feel no levelling; what counts for Γ − Γ₀ is by how much it is off beyond.
+    pub leeway: f64,
 }
 
 impl Levelling {
-    /// None where the stiffness is 0.
+    /// Without leeway; none where the stiffness is 0.
     pub fn new(stiffness: f64, target: f64) -> Option<Self> {
-        (stiffness > 0.0).then_some(Self { stiffness, target })
+        (stiffness > 0.0).then_some(Self {
+            stiffness,
+            target,
+            leeway: 0.0,
+        })
+    }
+
+    /// By how much Γ is too large, or too small if negative, and as much of it as makes pressure: that stays between
+    /// zero and 2 p_b. Where density cannot be level, as between bodies nearer than ∆s, more would only tear particles
+    /// apart.
+    fn excess(self, gamma: f64) -> [f64; 2] {
+        let off = gamma - self.target;
+        let excess = off - off.clamp(-self.leeway, self.leeway);
+        let most = 1.0 / self.stiffness;
+        [excess, excess.clamp(-most, most)]
     }
 }
 
@@ -77,13 +93,15 @@ pub struct Forces<const D: usize> {
     pub repulsion: Repulsion,
     /// The levelling, which may be changed between evaluations.
     pub levelling: Option<Levelling>,
+    /// Which particles have their density levelled, by their number; all where it is empty.
+    pub levelled: Vec<bool>,
     list: CellList<D>,
     /// The farthest that the repulsion has reached so far; what is farther in the list is not asked for it.
     reach: f64,
     level: Level,
     slots: Vec<Slot>,
     sums: Vec<Sums<D>>,
-    /// V (Γ − Γ₀) of every particle, 0 for those that are no targets.
+    /// V (Γ − Γ₀) of every particle, 0 for those that are no targets or are not levelled.
     excess: Vec<f64>,
     /// Σ_j V_j (Γ_j − Γ₀) ∇_iW_ij of every target slot.
     excess_gradient: Vec<[f64; D]>,
@@ -139,6 +157,7 @@ impl<const D: usize> Forces<D> {
             smoothing_length,
             repulsion,
             levelling: None,
+            levelled: Vec::new(),
             list: CellList::new(domain, support.max(repulsion.reach())).with_skin(skin),
             reach: 0.0,
             level: Level::new(),
@@ -205,7 +224,10 @@ impl<const D: usize> Forces<D> {
         self.excess.clear();
         self.excess.resize(volumes.len(), 0.0);
         for (sums, &i) in self.sums.iter().zip(self.list.target_particles()) {
-            self.excess[i as usize] = volumes[i as usize] * (sums.gamma - levelling.target);
+            let i = i as usize;
+            if is_levelled(&self.levelled, i) {
+                self.excess[i] = volumes[i] * levelling.excess(sums.gamma)[1];
+            }
         }
         self.list.weigh(&self.excess, &mut self.slots);
         self.excess_gradient.resize(self.list.targets(), [0.0; D]);
@@ -305,20 +327,17 @@ impl<const D: usize> Forces<D> {
             .sums
             .chunks(REDUCTION_BLOCK)
             .zip(particle.chunks(REDUCTION_BLOCK));
-        let level = self.levelling.unwrap_or(Levelling {
-            stiffness: 0.0,
-            target: 1.0,
-        });
         let partial: Vec<f64> = blocks
             .collect::<Vec<_>>()
             .into_par_iter()
             .map(|(sums, particle)| {
                 let mut sum = 0.0;
                 for (sums, &i) in sums.iter().zip(particle) {
-                    let excess = sums.gamma - level.target;
-                    let pressure = 0.5
-                        * (sums.gamma + sums.gamma_of_others + level.stiffness * excess * excess);
-                    sum += weight(i as usize) * pressure + sums.repulsion_energy;
+                    let i = i as usize;
+                    let (stiffness, [excess, held]) = self.excess_of(i, sums.gamma);
+                    let levelling = stiffness * held * (2.0 * excess - held);
+                    let pressure = 0.5 * (sums.gamma + sums.gamma_of_others + levelling);
+                    sum += weight(i) * pressure + sums.repulsion_energy;
                 }
                 sum
             })
@@ -336,11 +355,21 @@ impl<const D: usize> Forces<D> {
         let Some(level) = self.levelling else {
             return std::array::from_fn(|k| sums.repulsion[k] - weight * sums.gradient[k]);
         };
-        let own = 1.0 + level.stiffness * (sums.gamma - level.target);
+        let (stiffness, [_, held]) = self.excess_of(i, sums.gamma);
+        let own = 1.0 + stiffness * held;
         let others = self.excess_gradient[slot];
         std::array::from_fn(|k| {
             sums.repulsion[k] - weight * (own * sums.gradient[k] + level.stiffness * others[k])
         })
+    }
+
+    /// κ of particle `i` and its [`Levelling::excess`]; zeros where it is not levelled.
+    #[inline]
+    fn excess_of(&self, i: usize, gamma: f64) -> (f64, [f64; 2]) {
+        match self.levelling {
+            Some(level) if is_levelled(&self.levelled, i) => (level.stiffness, level.excess(gamma)),
+            _ => (0.0, [0.0; 2]),
+        }
     }
 
     /// Evaluations so far.
@@ -353,10 +382,20 @@ impl<const D: usize> Forces<D> {
         (self.neighbor_seconds, self.force_seconds)
     }
 
+    /// Work with its kernel, in scene units.
+    pub(crate) fn with_kernel<W: WithKernel<D>>(&self, work: W) -> W::Output {
+        self.interaction.with(self.smoothing_length, work)
+    }
+
     /// The neighbour list of the last evaluation.
     pub fn list(&self) -> &CellList<D> {
         &self.list
     }
+}
+
+#[inline]
+fn is_levelled(levelled: &[bool], i: usize) -> bool {
+    levelled.is_empty() || levelled[i]
 }
 
 /// Σ f over the values in blocks of fixed size: the same bits for any number of threads.

@@ -19,6 +19,12 @@ const SHORT: Relaxation = Relaxation {
     solid_h_over_spacing: 1.05,
 };
 
+const LEVELLED: Complex = Complex {
+    relaxation: SHORT,
+    levelling: 1000.0,
+    calm: 100.0,
+};
+
 /// Each with limits that a test can afford.
 fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
     vec![
@@ -40,7 +46,7 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
             .pack(p, o)
         }),
         ("relaxation", |p, o| SHORT.pack(p, o)),
-        ("complex", |p, o| Complex { relaxation: SHORT }.pack(p, o)),
+        ("complex", |p, o| LEVELLED.pack(p, o)),
         ("agitated", |p, o| {
             Agitated {
                 revolution: 90.0,
@@ -319,7 +325,11 @@ fn complex_relaxation_brings_the_first_layer_to_rest() {
     };
     let layers = |problem: &Problem<2>| {
         let apart = relaxation.pack(problem, &mut Silent).expect("apart");
-        let complex = Complex { relaxation };
+        let complex = Complex {
+            relaxation,
+            levelling: 0.0,
+            ..LEVELLED
+        };
         let complex = complex.pack(problem, &mut Silent).expect("together");
         let layers = (first_layer(problem, &apart), first_layer(problem, &complex));
         println!("{layers:?}");
@@ -339,7 +349,7 @@ fn complex_relaxation_brings_the_first_layer_to_rest() {
 #[test]
 fn relaxed_bodies_keep_their_volume_and_their_places_apart() {
     let problem = zigzag(0.05);
-    let packed = Complex { relaxation: SHORT }
+    let packed = LEVELLED
         .pack(&problem, &mut Silent)
         .expect("a sound problem");
     let quality = packed.quality(&packed.fields(KernelKind::Quintic, 1.2));
@@ -352,6 +362,39 @@ fn relaxed_bodies_keep_their_volume_and_their_places_apart() {
     let closest = quality.closest_pair_over_spacing;
     assert!(closest > 0.8, "{closest}");
     assert!(quality.density.linf < 0.015, "{}", quality.density.linf);
+}
+
+/// Least and largest Γ/Γ₀ − 1 of the fluid's particles or the solids', by Wendland's C2 at h/∆s.
+fn off(packed: &Packed<2>, h_over_spacing: f64, is_fluid: bool) -> [f64; 2] {
+    let kernel = KernelKind::WendlandC2;
+    let lattice = Lattice::auto(2, kernel, h_over_spacing).gamma(kernel, h_over_spacing);
+    let fields = packed.fields(kernel, h_over_spacing);
+    let particles = &packed.particles;
+    (0..particles.len())
+        .filter(|&i| particles.kind[i] != Kind::Frozen && particles.body[i].is_none() == is_fluid)
+        .map(|i| fields.gamma[i] / lattice - 1.0)
+        .fold([0.0; 2], |[low, high], off| [low.min(off), high.max(off)])
+}
+
+#[test]
+fn levelling_keeps_each_side_within_the_papers_range_by_its_own_h() {
+    for spacing in [0.1, 0.05] {
+        let problem = zigzag(spacing);
+        let sides = |complex: Complex| {
+            let packed = complex
+                .pack(&problem, &mut Silent)
+                .expect("a sound problem");
+            [off(&packed, 1.05, false), off(&packed, 1.3, true)]
+        };
+        let plain = sides(Complex {
+            levelling: 0.0,
+            ..LEVELLED
+        });
+        for ([low, high], before) in sides(LEVELLED).into_iter().zip(plain) {
+            assert!(low > -0.004 && high < 0.004, "{low} {high}");
+            assert!(before[1] - before[0] > 0.015, "{before:?}");
+        }
+    }
 }
 
 #[test]

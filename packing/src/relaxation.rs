@@ -10,6 +10,7 @@ use crate::confined::{Bound, Confined};
 use crate::confinement::Confinement;
 use crate::course::Course;
 use crate::forces::Forces;
+use crate::lattice::Filling;
 use crate::observer::{Observer, Phase};
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
@@ -78,16 +79,17 @@ impl Relaxation {
         problem: &Problem<D>,
         observer: &mut dyn Observer,
     ) -> Result<Packed<D>, PackingError> {
-        self.relax(problem, observer, Interface::Confinement)
+        let mut course = Course::new(observer, self.residual_tolerance, self.max_iterations);
+        let relaxed = self.relax(problem, &mut course, Interface::Confinement)?;
+        Ok(relaxed.end(problem, course))
     }
 
     pub(crate) fn relax<const D: usize>(
         &self,
         problem: &Problem<D>,
-        observer: &mut dyn Observer,
+        course: &mut Course<'_>,
         interface: Interface,
-    ) -> Result<Packed<D>, PackingError> {
-        let mut course = Course::new(observer, self.residual_tolerance, self.max_iterations);
+    ) -> Result<Relaxed<D>, PackingError> {
         course.enter(Phase::Geometry);
         let geometry = Instant::now();
         problem.check()?;
@@ -145,16 +147,13 @@ impl Relaxation {
         for i in on_surface {
             particles.kind[i] = Kind::Boundary;
         }
-        Ok(course
-            .end(
-                problem,
-                particles,
-                frozen_lattice,
-                surfaces,
-                &whole,
-                stop_reason,
-            )
-            .with_known_sides())
+        Ok(Relaxed {
+            particles,
+            surfaces,
+            frozen_lattice,
+            whole,
+            stop_reason,
+        })
     }
 
     /// The solids, each bounded by its particle surface.
@@ -175,6 +174,33 @@ impl Relaxation {
                 Confined::new(particles, forces, Some(confinement), bound)
             })
             .collect()
+    }
+}
+
+/// What relaxation comes to.
+pub(crate) struct Relaxed<const D: usize> {
+    /// Those that a body's surface holds are boundary particles.
+    pub(crate) particles: Particles<D>,
+    pub(crate) surfaces: Vec<ParticleSurface<D>>,
+    frozen_lattice: Filling<D>,
+    /// The evaluator of the problem, for particles that all see each other.
+    pub(crate) whole: Forces<D>,
+    pub(crate) stop_reason: StopReason,
+}
+
+impl<const D: usize> Relaxed<D> {
+    pub(crate) fn end(self, problem: &Problem<D>, course: Course<'_>) -> Packed<D> {
+        let (forces, reason) = (&self.whole, self.stop_reason);
+        course
+            .end(
+                problem,
+                self.particles,
+                self.frozen_lattice,
+                self.surfaces,
+                forces,
+                reason,
+            )
+            .with_known_sides()
     }
 }
 

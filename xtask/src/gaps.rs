@@ -115,7 +115,11 @@ pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
             packed.map_err(|e| error(&e))
         };
         let together = |bodies: &[Outline]| {
-            let packed = Complex { relaxation }.pack(&problem(airfoil, bodies), &mut Silent);
+            let complex = Complex {
+                relaxation,
+                ..Complex::default()
+            };
+            let packed = complex.pack(&problem(airfoil, bodies), &mut Silent);
             packed.map_err(|e| error(&e))
         };
         let with = apart(&solid)?;

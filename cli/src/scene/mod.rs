@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sphpack_kernels::KernelKind;
-use sphpack_packing::{Hybrid, Kind, Lattice, MinimiserKind, Settling};
+use sphpack_packing::{Complex, Hybrid, Kind, Lattice, MinimiserKind, Settling};
 
 pub use check::Fault;
 pub use method::{METHODS, Method, MethodInfo};
@@ -296,6 +296,7 @@ impl PackingSpec {
     pub fn settling(&self) -> Settling {
         let defaults = Settling::default();
         let levelling = match self.masses {
+            _ if self.method == Method::Complex => Complex::default().levelling,
             Masses::Equal => Settling::levelling_at(self.h_over_spacing()),
             Masses::Corrected => CORRECTED_LEVELLING,
         };

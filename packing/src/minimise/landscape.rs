@@ -5,6 +5,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sphpack_neighbors::point;
 
+use super::Calm;
 use super::sides::Sides;
 use super::vectors;
 use crate::forces::{Forces, Levelling};
@@ -13,8 +14,9 @@ use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::repulsion::Repulsion;
 
-/// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R, and that of a [`Levelling`], over the places of the mobile particles, and its forces −∇E;
-/// boundary particles stay on their surfaces, fixed and frozen ones where they are.
+/// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R, and that of a [`Levelling`], over the places of the mobile
+/// particles, and its forces −∇E; boundary particles stay on their surfaces, fixed and frozen ones where they are.
+/// The energies of a second evaluator and of a [`Calm`] may be added.
 ///
 /// E is per ∆s^D and p_b; the force on a particle of that volume is its acceleration for p_b = 1, per scene unit.
 /// Forces are −∇E along the surfaces for any volumes, so long as these do not change.
@@ -23,6 +25,8 @@ pub struct Landscape<'a, const D: usize> {
     particles: &'a mut Particles<D>,
     surfaces: &'a [ParticleSurface<D>],
     forces: Forces<D>,
+    added: Option<Forces<D>>,
+    calm: Option<Calm<D>>,
     on_surface: OnSurface<D>,
     sides: Sides<D>,
     spacing: f64,
@@ -57,6 +61,8 @@ impl<'a, const D: usize> Landscape<'a, D> {
             particles,
             surfaces,
             forces,
+            added: None,
+            calm: None,
             on_surface,
             sides: Sides::default(),
             spacing,
@@ -104,6 +110,21 @@ impl<'a, const D: usize> Landscape<'a, D> {
     /// Density and force at the last evaluation.
     pub fn forces(&self) -> &Forces<D> {
         &self.forces
+    }
+
+    /// Adds the energy of an evaluator by another kernel or smoothing length. Needs to be followed by an evaluation.
+    pub fn add(&mut self, forces: Forces<D>) {
+        self.added = Some(forces);
+    }
+
+    /// Adds the energy of a penalty by its own evaluator. Needs to be followed by an evaluation.
+    pub fn calm(&mut self, calm: Calm<D>) {
+        self.calm = Some(calm);
+    }
+
+    /// The evaluator that was added.
+    pub fn added(&self) -> Option<&Forces<D>> {
+        self.added.as_ref()
     }
 
     /// Gives the evaluator back.
@@ -206,7 +227,15 @@ impl<'a, const D: usize> Landscape<'a, D> {
         let unit = self.spacing.powi(D as i32);
         let volume = &self.particles.volume;
         self.energy = self.forces.weighted_energy(|i| volume[i] / unit);
-        let (forces, on_surface) = (&self.forces, &self.on_surface);
+        if let Some(added) = &mut self.added {
+            added.evaluate(self.particles);
+            self.energy += added.weighted_energy(|i| volume[i] / unit);
+        }
+        if let Some(calm) = &mut self.calm {
+            self.energy += calm.evaluate(&self.forces, self.particles, unit);
+        }
+        let (forces, added, on_surface) = (&self.forces, &self.added, &self.on_surface);
+        let calming = self.calm.as_ref().map(Calm::force);
         self.force
             .par_iter_mut()
             .zip(&self.mobile)
@@ -214,7 +243,15 @@ impl<'a, const D: usize> Landscape<'a, D> {
             .for_each(|(force, &i)| {
                 *force = {
                     let i = i as usize;
-                    on_surface.tangential(i, forces.weighted_acceleration(i, volume[i] / unit))
+                    let weight = volume[i] / unit;
+                    let mut force = forces.weighted_acceleration(i, weight);
+                    if let Some(added) = added {
+                        force = point::add(force, added.weighted_acceleration(i, weight));
+                    }
+                    if let Some(calming) = calming {
+                        force = point::add(force, calming[i]);
+                    }
+                    on_surface.tangential(i, force)
                 };
             });
         // What holds a particle on its floor takes the force towards the surface.

@@ -25,6 +25,7 @@
 //! - A few dozen careful FIRE steps before L-BFGS: capped L-BFGS steps reach the same density in fewer evaluations
 //!   from the start (63 instead of 103 on every 2-D scene here).
 
+mod calm;
 mod damped;
 mod fire;
 mod history;
@@ -36,6 +37,7 @@ mod sides;
 mod tests;
 mod vectors;
 
+pub use calm::Calm;
 pub use damped::Damped;
 pub use fire::Fire;
 pub use landscape::Landscape;

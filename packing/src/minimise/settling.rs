@@ -50,6 +50,8 @@ pub struct Settling {
     /// κ of the [`Levelling`] at the end of an even finish; 0 is none. A consistent finish has none: a pressure that
     /// differs from place to place is a residual.
     pub levelling: f64,
+    /// Its [leeway](Levelling::leeway).
+    pub leeway: f64,
 }
 
 impl Default for Settling {
@@ -62,6 +64,7 @@ impl Default for Settling {
             early_evaluations: 60,
             repulsion: [STRENGTH, 0.001],
             levelling: Self::levelling_at(1.2),
+            leeway: 0.0,
         }
     }
 }
@@ -110,7 +113,10 @@ impl Settling {
 
     fn last_levelling(&self, perfect_gamma: f64) -> Option<Levelling> {
         match self.finish {
-            Finish::Even => Levelling::new(self.levelling, perfect_gamma),
+            Finish::Even => Levelling::new(self.levelling, perfect_gamma).map(|level| Levelling {
+                leeway: self.leeway,
+                ..level
+            }),
             Finish::Consistent => None,
         }
     }
@@ -132,6 +138,8 @@ impl Settling {
     ) -> StopReason {
         let mut minimiser = self.minimiser.build::<D>();
         let begin = landscape.evaluations();
+        // Iterations with other evaluators.
+        let earlier = course.progress.evaluation.saturating_sub(begin);
         let tolerance = self.tolerance();
         let mut early = !is_again;
         if is_again {
@@ -150,7 +158,7 @@ impl Settling {
             let step = minimiser.step(landscape);
             let evaluations = landscape.evaluations();
             let residual = landscape.residual();
-            course.progress.evaluation = evaluations;
+            course.progress.evaluation = earlier + evaluations;
             course.progress.criterion = residual;
             course.tell();
             if evaluations >= noted + NOTE_EVERY {

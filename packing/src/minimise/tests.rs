@@ -60,6 +60,19 @@ fn is_mid_side<const D: usize>(p: [f64; D]) -> bool {
     p.into_iter().filter(|x| (x - 0.5).abs() > 0.2).count() == 1
 }
 
+/// An evaluator by another h that levels some of the particles, with leeway.
+fn one_side<const D: usize>(problem: &Problem<D>, count: usize, state: u64) -> Forces<D> {
+    let (kernel, h) = (problem.kernel, 0.9 * problem.smoothing_length());
+    let none = Repulsion::none();
+    let mut forces = Forces::new(&problem.domain, kernel, h, problem.skin(), none);
+    forces.levelled = (0..count).map(|i| (i as u64 * 7 + state) % 3 > 0).collect();
+    forces.levelling = Levelling::new(20.0, 1.0).map(|level| Levelling {
+        leeway: 0.005,
+        ..level
+    });
+    forces
+}
+
 fn with_landscape<const D: usize, R>(
     shake: f64,
     state: u64,
@@ -69,7 +82,15 @@ fn with_landscape<const D: usize, R>(
     let mut forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
     // Every other time.
     forces.levelling = Levelling::new(10.0 * (state % 2) as f64, problem.perfect_gamma());
+    let added = (state % 3 == 0).then(|| one_side(&problem, particles.len(), state));
     let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
+    if let Some(added) = added {
+        landscape.add(added);
+        landscape.calm(Calm::of(vec![3, 8, 21], 50.0));
+        let mut places = Vec::new();
+        landscape.places(&mut places);
+        landscape.move_to(&places, 0.0, &places);
+    }
     work(&mut landscape)
 }
 

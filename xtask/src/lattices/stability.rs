@@ -79,7 +79,7 @@ impl<const D: usize> WithKernel<D> for Springs<D> {
                         from,
                         to,
                         way,
-                        stiffness: stiffness(&kernel, way, r),
+                        stiffness: kernel.hessian(way),
                     });
                 }
             }
@@ -90,19 +90,6 @@ impl<const D: usize> WithKernel<D> for Springs<D> {
             springs,
         }
     }
-}
-
-/// H(R).
-fn stiffness<const D: usize, K: Kernel<D>>(kernel: &K, way: [f64; D], r: f64) -> [[f64; D]; D] {
-    let step = 1e-5 * kernel.smoothing_length();
-    let second = (kernel.slope(r + step) - kernel.slope(r - step)) / (2.0 * step);
-    let over_r = kernel.slope(r) / r;
-    std::array::from_fn(|k| {
-        std::array::from_fn(|l| {
-            let along = (second - over_r) * way[k] * way[l] / (r * r);
-            along + if k == l { over_r } else { 0.0 }
-        })
-    })
 }
 
 impl<const D: usize> Cell<D> {
