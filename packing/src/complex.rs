@@ -22,7 +22,8 @@ use crate::repulsion::Repulsion;
 ///
 /// The fluid is bounded "onto the non-contact surface" only (algorithm 1, line 14): a bound ∆s/2 outside of the bodies,
 /// as separate relaxation has, would hold the first layer back with h |Σ V ∇W| up to 0.08. It is kept out of the
-/// bodies, φ > 0 (eq. 11), which holds back no more than a particle in a notch.
+/// bodies, φ > 0 (eq. 11; φ > ∆s/2 where surface particles sit on the surface), which holds back no more than a
+/// particle in a notch.
 ///
 /// # Levelling
 /// The paper's kernel and h leave Γ off by 1 to 2.5 % here and there, whether there is a body or not
@@ -48,9 +49,8 @@ pub struct Complex {
 /// the scenes measured.
 const LEEWAY: f64 = 0.0025;
 
-/// Levelling ends where no force times h is larger, or after so many evaluations.
+/// Levelling ends where no force times h is larger, or after as many evaluations as relaxation may have.
 const TOLERANCE: f64 = 0.02;
-const MOST_EVALUATIONS: usize = 2000;
 
 /// The first layer of fluid is what is within ∆s of a body at the end; some come nearer while density is levelled.
 const FIRST_LAYER: f64 = 1.2;
@@ -98,14 +98,14 @@ impl Complex {
     ) -> Relaxed<D> {
         let settling = Settling {
             residual_tolerance: Some(TOLERANCE),
-            max_evaluations: MOST_EVALUATIONS,
+            max_evaluations: self.relaxation.max_iterations,
             repulsion: [REPULSION; 2],
             levelling: self.levelling,
             leeway: LEEWAY,
             ..Settling::default()
         };
         course.progress.tolerance = TOLERANCE;
-        course.progress.max_evaluations = course.progress.evaluation + MOST_EVALUATIONS;
+        course.progress.max_evaluations = course.progress.evaluation + settling.max_evaluations;
         course.enter(Phase::Settling);
         let is_solid: Vec<bool> = relaxed.particles.body.iter().map(Option::is_some).collect();
         let first_layer = first_layer(problem, &relaxed.particles);

@@ -14,7 +14,10 @@ pub(crate) type Bound<'a, const D: usize> = Box<dyn Fn([f64; D], u16) -> Closest
 
 /// Particles that see each other, the frozen ones among them, and what confines them.
 pub(crate) struct Confined<'a, const D: usize> {
+    /// With the part of their volume that others see.
     pub(crate) particles: Particles<D>,
+    /// The whole volume of each.
+    pub(crate) volume: Vec<f64>,
     pub(crate) forces: Forces<D>,
     confinement: Option<Confinement<D>>,
     bound: Bound<'a, D>,
@@ -40,16 +43,25 @@ const CORNER_ROUNDS: usize = 8;
 
 impl<'a, const D: usize> Confined<'a, D> {
     /// Takes the particles as they are, but for those beyond the surface, which are put back onto it. Free particles may
-    /// leave the surface again, boundary particles stay on it.
+    /// leave the surface again, boundary particles stay on it. Of these others see a part of the volume, `inner_share`:
+    /// what is beyond the surface confinement has already.
     pub(crate) fn new(
-        particles: Particles<D>,
+        mut particles: Particles<D>,
+        inner_share: f64,
         forces: Forces<D>,
         confinement: Option<Confinement<D>>,
         bound: Bound<'a, D>,
     ) -> Self {
         let count = particles.len();
+        let volume = particles.volume.clone();
+        for (seen, kind) in particles.volume.iter_mut().zip(&particles.kind) {
+            if *kind == Kind::Boundary {
+                *seen *= inner_share;
+            }
+        }
         let mut confined = Self {
             particles,
+            volume,
             forces,
             confinement,
             bound,

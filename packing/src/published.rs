@@ -398,6 +398,23 @@ fn levelling_keeps_each_side_within_the_papers_range_by_its_own_h() {
 }
 
 #[test]
+fn surface_particles_may_sit_on_the_surface_or_near_it() {
+    for (inset, apart, levelled) in [(0.0, 0.12, 0.01), (0.25, 0.08, 0.01)] {
+        let mut problem = zigzag(0.1);
+        problem.bodies[0].inset_over_spacing = inset;
+        let linf = |packed: Result<Packed<2>, PackingError>| {
+            let packed = packed.expect("a sound problem");
+            let quality = packed.quality(&packed.fields(KernelKind::Quintic, 1.2));
+            quality.density.linf
+        };
+        let off = linf(SHORT.pack(&problem, &mut Silent));
+        assert!(off < apart, "{inset}: {off}");
+        let off = linf(LEVELLED.pack(&problem, &mut Silent));
+        assert!(off < levelled, "{inset}: {off}");
+    }
+}
+
+#[test]
 fn solids_start_from_the_lattice_that_rests_at_their_h() {
     let least = |dimension, h| Lattice::auto(dimension, KernelKind::WendlandC2, h);
     assert_eq!(least(2, 1.05), Lattice::Square);

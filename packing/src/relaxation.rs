@@ -168,10 +168,10 @@ impl Relaxation {
             .map(|((body, held), particles)| {
                 let (kernel, domain) = (problem.kernel, &problem.domain);
                 let forces = Forces::new(domain, kernel, h, problem.skin(), Repulsion::none());
-                let body = body.surface.as_ref();
+                let (body, share) = (body.surface.as_ref(), body.inner_share());
                 let confinement = Confinement::inside(body, domain, kernel, h, problem.spacing);
                 let bound: Bound<'a, D> = Box::new(|p, _| held.surface.closest(p));
-                Confined::new(particles, forces, Some(confinement), bound)
+                Confined::new(particles, share, forces, Some(confinement), bound)
             })
             .collect()
     }
@@ -218,12 +218,22 @@ fn confined_fluid<'a, const D: usize>(
                 .collect();
             let (domain, h) = (&problem.domain, problem.smoothing_length());
             let all = Confinement::outside(&bodies, domain, problem.kernel, h, problem.spacing);
+            // What surface particles have on this side of a surface that they sit on.
+            for solid in solids {
+                let (particles, kind) = (&solid.particles, &solid.particles.kind);
+                for i in (0..particles.len()).filter(|&i| kind[i] == Kind::Boundary) {
+                    let beyond = solid.volume[i] - particles.volume[i];
+                    if beyond > 0.0 {
+                        fluid.push(particles.position[i], Kind::Frozen, beyond, None);
+                    }
+                }
+            }
             Some(all)
         }
         Interface::Particles => {
-            for solid in solids.iter().map(|solid| &solid.particles) {
-                for i in 0..solid.len() {
-                    fluid.push(solid.position[i], Kind::Frozen, solid.volume[i], None);
+            for solid in solids {
+                for (&place, &volume) in solid.particles.position.iter().zip(&solid.volume) {
+                    fluid.push(place, Kind::Frozen, volume, None);
                 }
             }
             None
@@ -231,7 +241,7 @@ fn confined_fluid<'a, const D: usize>(
     };
     let forces = Forces::of(problem, Repulsion::none());
     let bound: Bound<'a, D> = Box::new(move |p, _| fluid_bound(problem, interface, p));
-    Confined::new(fluid, forces, confinement, bound)
+    Confined::new(fluid, 1.0, forces, confinement, bound)
 }
 
 /// The nearest place of the set that bounds the fluid, its normal out of the fluid, its distance negative within.
@@ -244,12 +254,11 @@ fn fluid_bound<const D: usize>(
     let back = point::sub(p, wrapped);
     (problem.bodies.iter())
         .map(|body| {
-            let floor = match interface {
-                Interface::Confinement => {
-                    (1.0 - body.inset_over_spacing).max(0.0) * problem.spacing
-                }
-                Interface::Particles => 0.0,
-            };
+            let floor = problem.spacing
+                * match interface {
+                    Interface::Confinement => (1.0 - body.inset_over_spacing).max(0.0),
+                    Interface::Particles => 1.0 - body.inner_share(),
+                };
             let hit = body.surface.closest(wrapped);
             let away = point::unit(point::sub(wrapped, hit.point));
             let normal = away.filter(|_| hit.distance > 0.0).unwrap_or(hit.normal);
@@ -287,7 +296,7 @@ fn together<const D: usize>(
             if one.is_bounded[i] && body.is_some() {
                 on_surface.push(all.len());
             }
-            all.push(p, kind, one.particles.volume[i], body);
+            all.push(p, kind, one.volume[i], body);
         }
     }
     (all, on_surface)

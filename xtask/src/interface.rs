@@ -20,10 +20,9 @@ The paper's colours span ±0.4 %, of separate and complex relaxation alike. As i
 neither stays within that by Wendland's C2, and the last table says why: with this kernel what is no perfect lattice
 rests unevenly, whether there is a body or not, and at 1.05 not even the hexagonal lattice is stable. So an even density
 and a vanishing KGS cannot both be had. Levelling, on unless `levelling = 0`, gives up some of the one for the other:
-LEVELLED
-
-Kinetic energy, of the background pressure alone, falls toward zero in complex relaxation and not in separate; what
-levelling leaves is that of the forces which hold the density even, and stays.
+it takes what density needs from the layers behind the first, which it keeps calm. Then both sides stay within
+the paper's range, and the first layer's KGS stays below that of separate relaxation. Kinetic energy, of the background
+pressure alone, falls toward zero in complex relaxation, levelled or not, and stays high in separate.
 ";
 
 const HEAD: &str = "\

@@ -249,7 +249,7 @@ pub struct PackingSpec {
     /// The finish of methods that minimise.
     pub finish: Finish,
     /// How strongly an even finish levels the density, κ of p = p_b (1 + κ (Γ − Γ₀)); `None` is 10, less where
-    /// h/∆s is below 1.2 ([`Settling::levelling_at`]), with corrected masses 200. A consistent finish does not level.
+    /// h/∆s is below 1.2 ([`Settling::levelling_at`]), with corrected masses 200. For complex relaxation 1000. A consistent finish does not level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub levelling: Option<f64>,
     /// Which particles settle, with the method balanced.
@@ -296,7 +296,10 @@ impl PackingSpec {
     pub fn settling(&self) -> Settling {
         let defaults = Settling::default();
         let levelling = match self.masses {
-            _ if self.method == Method::Complex => Complex::default().levelling,
+            _ if self.method == Method::Complex => match self.finish {
+                Finish::Even => Complex::default().levelling,
+                Finish::Consistent => 0.0,
+            },
             Masses::Equal => Settling::levelling_at(self.h_over_spacing()),
             Masses::Corrected => CORRECTED_LEVELLING,
         };

@@ -46,7 +46,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # lattice = "auto"               # the start: `sphpack list lattices`; of least density, or the method's own
 # frozen = "lattice"             # particles outside the box: the lattice continued, or a "square" ring
 # finish = "even"                # even: pairs stay apart | consistent: no net pressure force on any free particle
-# levelling = 10                 # even: how strongly the density is levelled against leftover forces; 0: not at all
+# levelling = 10                 # even: how strongly the density is levelled against leftover forces (complex: 1000); 0: no
 # residual_tolerance = 1e-3      # stop where no force times h is larger (methods that minimise; consistent: 1e-5)
 # velocity_tolerance = 1e-4      # stop where nothing is faster (methods that damp: hybrid)
 # minimiser = "lbfgs"            # lbfgs | fire | damped; hybrid has none unless one is named

@@ -44,7 +44,7 @@ impl<const D: usize> Start<D> {
         let lattice =
             (problem.lattice).unwrap_or(Lattice::auto(D, problem.kernel, solid_h_over_spacing));
         let solid_sites = Sites::of(problem, lattice);
-        let room = room(problem);
+        let room = room(problem, surfaces);
         let mut solids = Vec::with_capacity(bodies);
         for (number, held) in (0_u16..).zip(surfaces) {
             let region = usize::from(number);
@@ -137,18 +137,24 @@ impl<const D: usize> Sites<D> {
     }
 }
 
-/// The volume of every body, and of the fluid last, without the bodies in it that come before.
-fn room<const D: usize>(problem: &Problem<D>) -> Vec<f64> {
+/// The volume of every body, and of the fluid last, without the bodies in it that come before. A body's reaches as far
+/// as its surface particles do, ∆s/2 beyond its surface where they sit on it.
+fn room<const D: usize>(problem: &Problem<D>, surfaces: &[ParticleSurface<D>]) -> Vec<f64> {
     let bodies = &problem.bodies;
+    let volume = |number: usize| {
+        let (body, held) = (&bodies[number], &surfaces[number].surface);
+        body.surface.volume() + (1.0 - body.inner_share()) * held.measure() * problem.spacing
+    };
     (directly_inside(bodies, problem.spacing)
         .into_iter()
         .enumerate())
     .map(|(region, within)| {
-        let whole = match bodies.get(region) {
-            Some(body) => body.surface.volume(),
-            None => problem.domain.bounds.volume(),
+        let whole = if region < bodies.len() {
+            volume(region)
+        } else {
+            problem.domain.bounds.volume()
         };
-        let taken: f64 = within.iter().map(|&a| bodies[a].surface.volume()).sum();
+        let taken: f64 = within.iter().map(|&a| volume(a)).sum();
         (whole - taken).max(0.0)
     })
     .collect()
