@@ -218,8 +218,6 @@ pub struct SecondsReport {
     pub geometry: f64,
     /// Placing particles.
     pub seeding: f64,
-    /// All that moves particles: the next three, and what a method does beside.
-    pub settling: f64,
     /// Keeping neighbour lists.
     pub neighbors: f64,
     /// Density and forces.

@@ -277,7 +277,6 @@ fn report<const D: usize>(
             total: built + seconds.total,
             geometry: built + seconds.geometry,
             seeding: seconds.seeding,
-            settling: seconds.total - seconds.geometry - seconds.seeding,
             neighbors: seconds.neighbors,
             forces: seconds.forces,
             projection: seconds.projection,

@@ -128,6 +128,7 @@ impl Complex {
             .added()
             .into_iter()
             .for_each(|solids| course.count(solids));
+        course.seconds.forces += landscape.calm_seconds();
         relaxed.whole = landscape.into_forces();
         if relaxed.stop_reason == StopReason::Converged {
             relaxed.stop_reason = reason;

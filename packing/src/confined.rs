@@ -1,5 +1,7 @@
 //! Particles within a surface that bounds them, relaxed step by step (004 §2.1).
 
+use std::time::Instant;
+
 use rayon::prelude::*;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
@@ -29,6 +31,8 @@ pub(crate) struct Confined<'a, const D: usize> {
     before: Vec<[f64; D]>,
     /// λ_max.
     stiffest: f64,
+    /// Spent on confinement, and on putting particles back.
+    pub(crate) seconds: [f64; 2],
 }
 
 /// Rounds of the power iteration for λ_max, which it approaches from below; the step keeps clear of the limit 2/λ_max.
@@ -70,6 +74,7 @@ impl<'a, const D: usize> Confined<'a, D> {
             gradient: vec![[0.0; D]; count],
             before: Vec::new(),
             stiffest: 0.0,
+            seconds: [0.0; 2],
         };
         confined.put_back();
         confined.stiffest = confined.stiffest_mode();
@@ -84,14 +89,17 @@ impl<'a, const D: usize> Confined<'a, D> {
             self.gradient[i] = self.forces.gradient(i);
         }
         if let Some(confinement) = &self.confinement {
+            let begin = Instant::now();
             let is_asked = |i: usize| kind[i] != Kind::Frozen;
             confinement.add_gradients(&self.particles.position, is_asked, &mut self.gradient);
+            self.seconds[0] += begin.elapsed().as_secs_f64();
         }
     }
 
     /// Eq. 7, at the particle surface itself: what is beyond it comes to its nearest place, and boundary particles do from
     /// either side.
     fn put_back(&mut self) {
+        let begin = Instant::now();
         for (bounded, kind) in self.is_bounded.iter_mut().zip(&self.particles.kind) {
             *bounded = *kind == Kind::Boundary;
         }
@@ -117,6 +125,7 @@ impl<'a, const D: usize> Confined<'a, D> {
             .with_min_len(64)
             .filter(|(i, _)| self.particles.kind[*i] == Kind::Boundary)
             .for_each(|(i, place)| *place = onto(i, bound(*place, body[i].unwrap_or(0))));
+        self.seconds[1] += begin.elapsed().as_secs_f64();
     }
 
     /// One step from rest (eqs. 4 to 8); returns how far from rest it was: the largest h |∆r|/∆t², for particles that

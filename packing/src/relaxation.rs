@@ -140,6 +140,8 @@ impl Relaxation {
         }
         for one in solids.iter().chain([&fluid]) {
             course.count(&one.forces);
+            course.seconds.forces += one.seconds[0];
+            course.seconds.projection += one.seconds[1];
         }
         let (mut particles, on_surface) = together(&solids, &fluid, own);
         drop((solids, fluid));

@@ -22,7 +22,8 @@ rests unevenly, whether there is a body or not, and at 1.05 not even the hexagon
 and a vanishing KGS cannot both be had. Levelling, on unless `levelling = 0`, gives up some of the one for the other:
 it takes what density needs from the layers behind the first, which it keeps calm. Then both sides stay within
 the paper's range, and the first layer's KGS stays below that of separate relaxation. Kinetic energy, of the background
-pressure alone, falls toward zero in complex relaxation, levelled or not, and stays high in separate.
+pressure alone, falls toward zero in complex relaxation, levelled or not, and stays high in separate. The last rows are
+where levelling fails: in a tail thinner than 2 ∆s every solid particle is a surface particle, and these are held.
 ";
 
 const HEAD: &str = "\
@@ -31,8 +32,8 @@ first fluid layer: h KGS max, mean | its kinetic energy, end / start | iteration
 |---|---|---|---|---|---|---|---|---|---|
 ";
 
-/// Scenes and spacings; three of each where the paper has curves for three.
-const ROWS: [(&str, f64); 7] = [
+/// Scenes and spacings; three of each where the paper has curves for three, and a tail thinner than ∆s.
+const ROWS: [(&str, f64); 8] = [
     ("cylinder", 0.1),
     ("starfish", 0.1),
     ("starfish", 0.075),
@@ -40,6 +41,7 @@ const ROWS: [(&str, f64); 7] = [
     ("zigzag", 0.1),
     ("zigzag", 0.05),
     ("zigzag", 0.025),
+    ("naca0015", 0.02),
 ];
 
 /// Methods, and their levelling.

@@ -46,7 +46,9 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
             grouped(report.force_evaluations),
             report.residual.max
         ),
-        Some(duration(report.seconds.settling)),
+        Some(duration(
+            report.seconds.neighbors + report.seconds.forces + report.seconds.projection,
+        )),
     );
     let on_surface: usize = report.surface.iter().map(|surface| surface.count).sum();
     let target: usize = report

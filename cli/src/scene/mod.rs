@@ -296,10 +296,7 @@ impl PackingSpec {
     pub fn settling(&self) -> Settling {
         let defaults = Settling::default();
         let levelling = match self.masses {
-            _ if self.method == Method::Complex => match self.finish {
-                Finish::Even => Complex::default().levelling,
-                Finish::Consistent => 0.0,
-            },
+            _ if self.method == Method::Complex => Complex::default().levelling,
             Masses::Equal => Settling::levelling_at(self.h_over_spacing()),
             Masses::Corrected => CORRECTED_LEVELLING,
         };

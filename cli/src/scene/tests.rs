@@ -364,6 +364,5 @@ fn levelling_is_weaker_where_the_kernel_is_short() {
     assert_eq!(at("h_over_spacing = 1.0\nlevelling = 7.0"), 7.0);
     assert_eq!(at("masses = \"corrected\""), 200.0);
     assert_eq!(at("method = \"complex\""), 1000.0);
-    assert_eq!(at("method = \"complex\"\nfinish = \"consistent\""), 0.0);
     assert_eq!(at("method = \"complex\"\nlevelling = 0.0"), 0.0);
 }

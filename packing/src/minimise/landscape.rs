@@ -37,6 +37,7 @@ pub struct Landscape<'a, const D: usize> {
     energy: f64,
     force: Vec<[f64; D]>,
     projection_seconds: f64,
+    calm_seconds: f64,
 }
 
 impl<'a, const D: usize> Landscape<'a, D> {
@@ -71,6 +72,7 @@ impl<'a, const D: usize> Landscape<'a, D> {
             is_surface_held: false,
             energy: 0.0,
             projection_seconds: 0.0,
+            calm_seconds: 0.0,
         };
         landscape.project();
         landscape.evaluate();
@@ -157,6 +159,11 @@ impl<'a, const D: usize> Landscape<'a, D> {
         self.projection_seconds
     }
 
+    /// Seconds spent on the [`Calm`].
+    pub fn calm_seconds(&self) -> f64 {
+        self.calm_seconds
+    }
+
     /// From now on free particles stay on the side of every surface where they are, 0.4 ∆s away from it unless they
     /// are nearer now. Costs a look at every particle near a surface.
     pub fn keep_sides(&mut self) {
@@ -232,7 +239,9 @@ impl<'a, const D: usize> Landscape<'a, D> {
             self.energy += added.weighted_energy(|i| volume[i] / unit);
         }
         if let Some(calm) = &mut self.calm {
+            let start = Instant::now();
             self.energy += calm.evaluate(&self.forces, self.particles, unit);
+            self.calm_seconds += start.elapsed().as_secs_f64();
         }
         let (forces, added, on_surface) = (&self.forces, &self.added, &self.on_surface);
         let calming = self.calm.as_ref().map(Calm::force);
