@@ -65,7 +65,9 @@ fn one_side<const D: usize>(problem: &Problem<D>, count: usize, state: u64) -> F
     let (kernel, h) = (problem.kernel, 0.9 * problem.smoothing_length());
     let none = Repulsion::none();
     let mut forces = Forces::new(&problem.domain, kernel, h, problem.skin(), none);
-    forces.levelled = (0..count).map(|i| (i as u64 * 7 + state) % 3 > 0).collect();
+    forces.levelled = (0..count)
+        .map(|i| !(i as u64 * 7 + state).is_multiple_of(3))
+        .collect();
     forces.levelling = Levelling::new(20.0, 1.0).map(|level| Levelling {
         leeway: 0.005,
         ..level
@@ -82,7 +84,9 @@ fn with_landscape<const D: usize, R>(
     let mut forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
     // Every other time.
     forces.levelling = Levelling::new(10.0 * (state % 2) as f64, problem.perfect_gamma());
-    let added = (state % 3 == 0).then(|| one_side(&problem, particles.len(), state));
+    let added = state
+        .is_multiple_of(3)
+        .then(|| one_side(&problem, particles.len(), state));
     let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
     if let Some(added) = added {
         landscape.add(added);
