@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::confined::Confined;
 use crate::course::Course;
-use crate::forces::{Forces, Levelling};
+use crate::forces::Forces;
 use crate::lattice::Lattice;
 use crate::minimise::{Calm, Landscape, Settling};
 use crate::observer::{Observer, Phase};
@@ -41,7 +41,7 @@ pub struct Complex {
     pub relaxation: Relaxation,
     /// κ; 0 leaves particles as the paper does.
     pub levelling: f64,
-    /// μ.
+    /// μ, how much the first layer's kernel gradient sum counts while density is levelled.
     pub calm: f64,
 }
 
@@ -120,7 +120,7 @@ impl Complex {
             problem.spacing,
             problem.support(),
         );
-        landscape.add(self.solids(problem, is_solid));
+        landscape.add(self.solids(problem, is_solid, &settling));
         landscape.calm(Calm::of(first_layer, self.calm));
         landscape.keep_sides();
         let reason = settling.run(&mut landscape, course, fluid_gamma, true);
@@ -137,7 +137,12 @@ impl Complex {
     }
 
     /// The evaluator by the solids' h, which levels them.
-    fn solids<const D: usize>(&self, problem: &Problem<D>, is_solid: Vec<bool>) -> Forces<D> {
+    fn solids<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        is_solid: Vec<bool>,
+        settling: &Settling,
+    ) -> Forces<D> {
         let (kernel, ratio) = (problem.kernel, self.relaxation.solid_h_over_spacing);
         let h = ratio * problem.spacing;
         let lattice = (problem.lattice).unwrap_or(Lattice::auto(D, kernel, ratio));
@@ -145,10 +150,7 @@ impl Complex {
         let none = Repulsion::none();
         let mut forces = Forces::new(&problem.domain, kernel, h, problem.skin(), none);
         forces.levelled = is_solid;
-        forces.levelling = Levelling::new(self.levelling, gamma).map(|level| Levelling {
-            leeway: LEEWAY,
-            ..level
-        });
+        forces.levelling = settling.last_levelling(gamma);
         forces
     }
 }

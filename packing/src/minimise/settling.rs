@@ -111,7 +111,8 @@ impl Settling {
         }
     }
 
-    fn last_levelling(&self, perfect_gamma: f64) -> Option<Levelling> {
+    /// The levelling at the end, towards Γ₀ = `perfect_gamma`.
+    pub(crate) fn last_levelling(&self, perfect_gamma: f64) -> Option<Levelling> {
         match self.finish {
             Finish::Even => Levelling::new(self.levelling, perfect_gamma).map(|level| Levelling {
                 leeway: self.leeway,
