@@ -26,7 +26,7 @@ const AT_ONCE: usize = 1 << 18;
 /// Sorts packed particles by body and role.
 ///
 /// Solids and voids hold what is inside their particle surface; a container holds only its wall, the particles on its
-/// surface. Left out are: particles beyond a container's wall, particles in a void (those on the surface of a void too,
+/// surface. Left out are: particles beyond every container's wall, particles in a void (those on the surface of a void too,
 /// unless it is exact: then they are fluid), and fluid where `fluid.fill` is false. Frozen particles count as fluid, and as
 /// beyond any wall.
 pub(crate) fn sort<const D: usize>(
@@ -87,19 +87,21 @@ pub(crate) fn sort<const D: usize>(
             labels.side[i] = Side::Solid;
         }
     }
-    for body in 0..packed.surfaces.len() as u16 {
-        if role(body) == Role::Container {
-            for inner in inner.chunks(AT_ONCE) {
-                let positions: Vec<[f64; D]> =
-                    inner.iter().map(|&i| particles.position[i]).collect();
-                let held = surface(body).inside_batch(&positions);
-                for (&i, held) in inner.iter().zip(held) {
-                    keep[i] &= held || particles.kind[i].is_on_surface();
-                }
-            }
+    let containers: Vec<u16> = (0..packed.surfaces.len() as u16)
+        .filter(|&body| role(body) == Role::Container)
+        .collect();
+    let is_contained = !containers.is_empty();
+    for inner in inner.chunks(AT_ONCE) {
+        let positions: Vec<[f64; D]> = inner.iter().map(|&i| particles.position[i]).collect();
+        let mut is_held = vec![!is_contained; inner.len()];
+        for &container in &containers {
+            let held = surface(container).inside_batch(&positions);
+            (is_held.iter_mut().zip(held)).for_each(|(any, held)| *any |= held);
+        }
+        for (&i, is_held) in inner.iter().zip(is_held) {
+            keep[i] &= is_held || particles.kind[i].is_on_surface();
         }
     }
-    let is_contained = scene.body.iter().any(|body| body.role == Role::Container);
     for i in 0..particles.len() {
         let is_left_out = (!scene.fluid.fill && labels.side[i] == Side::Fluid)
             || (is_contained && particles.kind[i] == Kind::Frozen);

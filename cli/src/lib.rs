@@ -28,9 +28,12 @@
 //! Invariants: only [`mod@files`] and the command write files, and those whole or not at all; no input makes anything
 //! here panic; two and three dimensions part in one `match`, in [`run`].
 
+mod audit;
 mod body_file;
 mod cloud;
 pub mod command;
+mod content;
+mod corrected;
 mod dimension;
 mod error;
 mod examined;
@@ -44,12 +47,13 @@ pub mod picture;
 mod plan;
 mod precedence;
 mod report;
+mod roles;
 mod run;
 pub mod scene;
-mod seen;
 mod surroundings;
 mod table;
 
+pub use audit::Audit;
 pub use body_file::{ReadBody, body_format};
 pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};

@@ -2,7 +2,7 @@
 
 use sphpack_packing::{
     Agitated, Balanced, Band, Clipped, Complex, Coupled, Hybrid, Observer, Packed, Ppa, Problem,
-    Relaxation, Standard, Triangulated,
+    Relaxation, Standard, Triangulated, seeding::particle_surfaces,
 };
 
 use crate::Error;
@@ -69,6 +69,20 @@ pub(crate) fn pack<const D: usize>(
         .pack(problem, observer),
     };
     packed.map_err(|source| Error::Packing {
+        path: scene.path.clone(),
+        source,
+    })
+}
+
+/// Whether the scene's method will take the problem, as far as that is known before the work.
+pub(crate) fn check<const D: usize>(problem: &Problem<D>, scene: &Scene) -> Result<(), Error> {
+    let checked = match scene.packing.method {
+        Method::Balanced => Balanced::check(problem),
+        // The fluid goes to the true surfaces.
+        Method::Ppa => problem.check(),
+        _ => particle_surfaces(problem).map(drop),
+    };
+    checked.map_err(|source| Error::Packing {
         path: scene.path.clone(),
         source,
     })

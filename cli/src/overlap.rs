@@ -5,10 +5,10 @@ use sphpack_neighbors::{Bounds, point};
 use sphpack_packing::Body;
 
 /// How deep bodies may be in each other, in ∆s, and still count as touching.
-const TOUCHING_OVER_SPACING: f64 = 0.1;
+pub(crate) const TOUCHING_OVER_SPACING: f64 = 0.1;
 
 /// Places per particle of a surface that are looked at.
-const PER_PARTICLE: f64 = 4.0;
+pub(crate) const PER_PARTICLE: f64 = 4.0;
 
 /// A place that two bodies claim.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,10 +8,10 @@ use sphpack_packing::{Band, Body, Estimate, FrozenLayout, PackingError, Problem}
 
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
-use crate::dimension::{Dimension, Space};
+use crate::dimension::{Built, Dimension, Space};
 use crate::report::kibibytes;
 use crate::scene::{BandWidth, Fault, Frozen, Method, Role, Scene, Surroundings};
-use crate::{overlap, precedence};
+use crate::{methods, overlap, precedence, roles};
 
 /// What a scene will need.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,14 +24,14 @@ pub struct Plan {
     pub estimate: Estimate,
     /// The memory that may be used, bytes.
     pub allowed_bytes: f64,
-    /// What was mended of each body, a sentence each.
-    pub repairs: Vec<Vec<String>>,
+    /// What was mended of each body, by its name; a sentence each.
+    pub repairs: Vec<(String, Vec<String>)>,
 }
 
 /// A scene's problem.
 pub(crate) struct Prepared<const D: usize> {
     pub(crate) problem: Problem<D>,
-    /// The scene with its defaults filled in.
+    /// The scene with its defaults filled in, its bodies in the problem's order: each after those that lie in it.
     pub(crate) resolved: Scene,
     /// In 2-D, the bodies' closed loops.
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
@@ -60,8 +60,8 @@ pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
     let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
     let dimension = dimension(scene)?;
     let (read, repairs, estimate) = match dimension {
-        2 => prepare::<2>(scene, allowed_bytes).map(|(p, e)| (p.read, p.repairs, e)),
-        _ => prepare::<3>(scene, allowed_bytes).map(|(p, e)| (p.read, p.repairs, e)),
+        2 => planned::<2>(scene, allowed_bytes),
+        _ => planned::<3>(scene, allowed_bytes),
     }?;
     Ok(Plan {
         dimension,
@@ -70,6 +70,19 @@ pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
         allowed_bytes,
         repairs,
     })
+}
+
+type Planned = (Vec<ReadBody>, Vec<(String, Vec<String>)>, Estimate);
+
+fn planned<const D: usize>(scene: &Scene, allowed_bytes: f64) -> Result<Planned, Error>
+where
+    Space<D>: Dimension<D>,
+{
+    let (prepared, estimate) = prepare::<D>(scene, allowed_bytes)?;
+    methods::check(&prepared.problem, &prepared.resolved)?;
+    let names = prepared.resolved.body.into_iter().map(|body| body.name);
+    let repairs = names.zip(prepared.repairs).collect();
+    Ok((prepared.read, repairs, estimate))
 }
 
 /// Memory that can be had without swapping, bytes.
@@ -218,6 +231,13 @@ where
         }));
     }
     precedence::settle(scene, &mut all)?;
+    let order = roles::order(scene, &all)?;
+    let mut all: Vec<Option<Built<D>>> = all.into_iter().map(Some).collect();
+    let all: Vec<Built<D>> = order.iter().filter_map(|&i| all[i].take()).collect();
+    let scene = &Scene {
+        body: order.iter().map(|&i| scene.body[i].clone()).collect(),
+        ..scene.clone()
+    };
     let mut bodies = Vec::new();
     let mut loops = Vec::new();
     let mut repairs = Vec::new();
@@ -245,12 +265,16 @@ where
             }
         })?;
     }
-    let problem = Problem {
+    let empty = Problem {
         domain,
         spacing: scene.spacing,
-        bodies,
+        bodies: Vec::new(),
         kernel: scene.packing.kernel(),
         h_over_spacing: scene.packing.h_over_spacing(),
+        seen_within: {
+            let (kernel, h_over_spacing) = scene.judge();
+            kernel.support_over_h() * h_over_spacing * scene.spacing
+        },
         seed: scene.packing.seed,
         lattice: scene.packing.lattice_in(D),
         frozen: match scene.packing.frozen {
@@ -258,6 +282,7 @@ where
             Frozen::Square => FrozenLayout::Square,
         },
     };
+    let problem = bodies.into_iter().fold(empty, Problem::placed_body);
     let fail = |source: PackingError| Error::Packing {
         path: scene.path.clone(),
         source,

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use sphpack_packing::{DensityQuality, MassCorrection, ResidualQuality, Sample, SurfaceQuality};
 
+use crate::audit::Audit;
 use crate::scene::Scene;
 
 /// The version of the report's keys.
@@ -51,6 +52,8 @@ pub struct Report {
     pub surface: Vec<SurfaceReport>,
     /// Each body's content.
     pub bodies: Vec<BodyReport>,
+    /// Whether it is what it should be.
+    pub audit: Audit,
     /// With corrected masses, what that came to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_correction: Option<MassReport>,
@@ -224,6 +227,8 @@ pub struct SecondsReport {
     pub forces: f64,
     /// Keeping particles on surfaces.
     pub projection: f64,
+    /// Telling particles apart, their figures, the audit.
+    pub measuring: f64,
     /// Writing files, this one not included.
     pub output: f64,
 }

@@ -4,8 +4,12 @@ use sphpack_neighbors::point;
 use sphpack_packing::{Fields, Kind, Observer, Packed, Problem, Quality, StopReason};
 use sphpack_separation::{Labels, Side};
 
+use std::time::Instant;
+
 use crate::Error;
+use crate::audit::Audit;
 use crate::body_file::ReadBody;
+use crate::{content, corrected};
 use crate::dimension::{Dimension, Space};
 use crate::hydrostatic::AtRest;
 use crate::labels::{Sorted, sort};
@@ -16,8 +20,10 @@ use crate::report::{
     peak_memory_bytes,
 };
 use crate::scene::{Masses, Scene};
-use crate::seen::Seen;
 use crate::table::Table;
+
+/// What particle files say in place of the reason why settling stopped, where the audit has found something.
+const UNSOUND: &str = "unsound";
 
 /// What a run may use.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -35,6 +41,8 @@ pub struct Solution<const D: usize> {
     pub packed: Packed<D>,
     /// Which belongs to what; frozen ones are labelled fluid.
     pub labels: Labels,
+    /// Which of them roles and `fluid.fill` keep.
+    pub keep: Vec<bool>,
     /// Γ and its gradient as the scene's quality settings ask; zero for frozen particles.
     pub fields: Fields<D>,
     /// The figures of these fields.
@@ -99,26 +107,34 @@ where
         repairs,
         seconds: built,
     } = prepared;
+    let scene = &resolved;
     let mut packed = pack(&problem, scene, observer)?;
+    let measuring = Instant::now();
     let sorted = sort(&packed, scene)
         .map_err(|e| Error::System(format!("particles cannot be separated: {e}")))?;
     let judge = judged(&problem, scene);
-    let seen = Seen::by(&judge, &problem, &packed);
     let masses = (scene.packing.masses == Masses::Corrected)
-        .then(|| seen.correct(&judge, &mut packed, &sorted, scene.packing.mass_spread));
-    let fields = seen.fields(&judge, &packed);
-    drop(seen);
+        .then(|| corrected::correct(&judge, &mut packed, &sorted, scene.packing.mass_spread));
+    let fields = packed.fields(judge.kernel, judge.h_over_spacing);
     let Sorted { labels, keep } = sorted;
     let quality = packed.quality(&fields);
     let solution = Solution {
         problem,
         packed,
         labels,
+        keep,
         fields,
         quality,
     };
-    let table = table(scene, &solution).kept_by_id(&keep);
-    let mut report = report(scene, resolved, &solution, &table, built);
+    let volumes = content::volumes(&solution.problem, &solution);
+    let audit = Audit::of(scene, &solution, &volumes);
+    let mut table = table(scene, &solution).kept_by_id(&solution.keep);
+    if !audit.passed && solution.packed.stop_reason == StopReason::Converged {
+        table.stop_reason = UNSOUND.to_owned();
+    }
+    let mut report = report(scene, &solution, &volumes, audit, &table, built);
+    report.seconds.measuring = measuring.elapsed().as_secs_f64();
+    report.seconds.total += report.seconds.measuring;
     report.mass_correction = masses.map(MassReport::from);
     for (body, repairs) in report.bodies.iter_mut().zip(repairs) {
         body.repairs = repairs;
@@ -202,15 +218,15 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
 
 fn report<const D: usize>(
     scene: &Scene,
-    resolved: Scene,
     solution: &Solution<D>,
+    volumes: &[f64],
+    audit: Audit,
     table: &Table,
     built: f64,
 ) -> Report {
     let Solution {
         problem,
         packed,
-        labels,
         quality,
         ..
     } = solution;
@@ -220,34 +236,20 @@ fn report<const D: usize>(
             .filter(|&i| table.kind[i] != Kind::Frozen && table.side[i] == side)
             .count()
     };
-    let bodies = (problem.bodies.iter().zip(&scene.body).zip(0_u16..))
-        .map(|((body, spec), number)| {
-            let on_surface = body.inner_share();
-            let volume = (0..packed.particles.len())
-                .filter(|&i| labels.body[i] == Some(number))
-                .map(|i| {
-                    let share = if packed.particles.kind[i].is_on_surface() {
-                        on_surface
-                    } else {
-                        1.0
-                    };
-                    share * packed.particles.volume[i]
-                })
-                .sum();
-            BodyReport {
+    let bodies = (problem.bodies.iter().zip(&scene.body).zip(volumes))
+        .map(|((body, spec), &volume)| BodyReport {
                 name: body.name.clone(),
                 volume_true: body.surface.volume(),
                 volume,
                 mass: spec.density * volume,
                 repairs: Vec::new(),
-            }
         })
         .collect();
     let seconds = &packed.seconds;
     Report {
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION"),
-        scene: resolved,
+        scene: scene.clone(),
         dimension: D,
         spacing: problem.spacing,
         method: scene.packing.method.name(),
@@ -273,6 +275,7 @@ fn report<const D: usize>(
         closest_pair_over_spacing: finite(quality.closest_pair_over_spacing),
         surface: quality.surface.iter().map(SurfaceReport::from).collect(),
         bodies,
+        audit,
         seconds: SecondsReport {
             total: built + seconds.total,
             geometry: built + seconds.geometry,
@@ -280,6 +283,7 @@ fn report<const D: usize>(
             neighbors: seconds.neighbors,
             forces: seconds.forces,
             projection: seconds.projection,
+            measuring: 0.0,
             output: 0.0,
         },
         mass_correction: None,

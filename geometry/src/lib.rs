@@ -31,7 +31,7 @@
 //! | triangles with defects: check, mend, join | [`Soup`], [`Soup::read`], [`FastWinding`] |
 //! | loops with defects: check, mend, join | [`Sketch`], [`Sketch::read`] |
 //! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
-//! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`] |
+//! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`], [`Repeated`] (in a periodic box) |
 //! | distances on a grid, and Booleans of them | [`LevelSet`] |
 //! | points: even ([`Surface::sample`]), by a weight, for thin bodies | [`sample_weighted`], [`sample_particles`], [`thickness()`] |
 //! | underneath | [`Bvh`] |
@@ -50,6 +50,7 @@ mod mesh;
 mod outline;
 mod placed;
 mod read;
+mod repeated;
 mod sample;
 mod sampling;
 mod segment;
@@ -72,6 +73,7 @@ pub use outline::{
 };
 pub use placed::Placed;
 pub use read::{BodyFormat, FLATTENING_OVER_SIZE, Solid};
+pub use repeated::Repeated;
 pub use sample::{polygons, sample_weighted};
 pub use sampling::SAGITTA_OVER_SIZE;
 pub use shapes::{Ball, Cuboid, Cylinder, Ellipsoid, Torus};

@@ -106,6 +106,11 @@ impl<const D: usize> CellList<D> {
         }
     }
 
+    /// The box.
+    pub fn domain(&self) -> &Domain<D> {
+        &self.domain
+    }
+
     /// The support radius.
     pub fn support(&self) -> f64 {
         self.support
@@ -264,40 +269,16 @@ impl<const D: usize> CellList<D> {
 
     /// Appends a slot for every periodic image within `reach` of the box; fills `shift`.
     fn add_images(&mut self, positions: &[[f64; D]], wrapped: &[[f64; D]], reach: f64) {
-        let size = self.domain.bounds.size();
-        let near = self.domain.bounds.grown(reach);
         self.shift.extend(
             self.particle
                 .iter()
                 .map(|&i| point::sub(wrapped[i as usize], positions[i as usize])),
         );
-        // How many periods an image may be away: more than one where the box is narrower than the reach.
-        let periods: [i32; D] = std::array::from_fn(|k| {
-            if self.domain.periodic[k] {
-                (reach / size[k]).ceil() as i32
-            } else {
-                0
-            }
-        });
         for own in 0..positions.len() {
             let i = self.particle[own] as usize;
-            let mut step = periods.map(|n| -n);
-            loop {
-                if step != [0; D] {
-                    let image: [f64; D] =
-                        std::array::from_fn(|k| wrapped[i][k] + f64::from(step[k]) * size[k]);
-                    if near.contains(image) {
-                        self.particle.push(i as u32);
-                        self.shift.push(point::sub(image, positions[i]));
-                    }
-                }
-                let Some(axis) = (0..D).rev().find(|&k| step[k] < periods[k]) else {
-                    break;
-                };
-                step[axis] += 1;
-                for k in axis + 1..D {
-                    step[k] = -periods[k];
-                }
+            for image in self.domain.images(wrapped[i], reach).skip(1) {
+                self.particle.push(i as u32);
+                self.shift.push(point::sub(image, positions[i]));
             }
         }
     }

@@ -1,5 +1,7 @@
 //! The box that holds the particles.
 
+use std::cmp::Ordering;
+
 use crate::Bounds;
 
 /// An axis-aligned box, each axis open or periodic.
@@ -48,6 +50,19 @@ impl<const D: usize> Domain<D> {
         })
     }
 
+    /// The place of the box nearest to `p`, periodic axes left as they are.
+    #[inline]
+    pub fn clamp(&self, p: [f64; D]) -> [f64; D] {
+        std::array::from_fn(|k| {
+            if self.periodic[k] {
+                p[k]
+            } else {
+                // Not `clamp`, which panics for an empty box.
+                p[k].max(self.bounds.min[k]).min(self.bounds.max[k])
+            }
+        })
+    }
+
     /// `a − b` to the nearest image of `b`.
     #[inline]
     pub fn difference(&self, a: [f64; D], b: [f64; D]) -> [f64; D] {
@@ -60,5 +75,41 @@ impl<const D: usize> Domain<D> {
                 d
             }
         })
+    }
+
+    /// The images of `p` in the box and within `reach` (scene units) of it across periodic sides; the one in the box first.
+    /// `p` alone where no axis is periodic, wherever it is.
+    pub fn images(&self, p: [f64; D], reach: f64) -> impl Iterator<Item = [f64; D]> + use<D> {
+        let own = self.wrap(p);
+        let size = self.bounds.size();
+        // How many periods an image may be away: more than one where the box is narrower than the reach.
+        let periods: [i32; D] = std::array::from_fn(|k| {
+            if self.periodic[k] {
+                (reach / size[k]).ceil() as i32
+            } else {
+                0
+            }
+        });
+        let (near, periodic) = (self.bounds.grown(reach), self.periodic);
+        let mut next = Some(periods.map(|n| -n));
+        let others = std::iter::from_fn(move || {
+            loop {
+                let step = next?;
+                next = (0..D).rev().find(|&k| step[k] < periods[k]).map(|axis| {
+                    std::array::from_fn(|k| match k.cmp(&axis) {
+                        Ordering::Less => step[k],
+                        Ordering::Equal => step[k] + 1,
+                        Ordering::Greater => -periods[k],
+                    })
+                });
+                let image: [f64; D] = std::array::from_fn(|k| own[k] + f64::from(step[k]) * size[k]);
+                let is_near = (0..D)
+                    .all(|k| !periodic[k] || (near.min[k] <= image[k] && image[k] <= near.max[k]));
+                if step != [0; D] && is_near {
+                    return Some(image);
+                }
+            }
+        });
+        std::iter::once(own).chain(others)
     }
 }

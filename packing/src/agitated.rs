@@ -150,7 +150,7 @@ impl Agitated {
         let mut forces = Forces::of(problem, Repulsion::none());
         let mut near = Near::default();
         let mut acceleration = Vec::new();
-        let mut motion = Motion::at_rest(particles.len());
+        let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
         let (mut time, mut changed_at, mut looked_at) = (0.0, 0.0, 0.0);
         let mut error_then = f64::INFINITY;

@@ -125,6 +125,13 @@ impl<'a, const D: usize> Confined<'a, D> {
             .with_min_len(64)
             .filter(|(i, _)| self.particles.kind[*i] == Kind::Boundary)
             .for_each(|(i, place)| *place = onto(i, bound(*place, body[i].unwrap_or(0))));
+        // Nor does anyone leave the box, beside whose sides a bound may put them.
+        let domain = self.forces.list().domain();
+        for (place, kind) in self.particles.position.iter_mut().zip(&self.particles.kind) {
+            if *kind == Kind::Free {
+                *place = domain.clamp(*place);
+            }
+        }
         self.seconds[1] += begin.elapsed().as_secs_f64();
     }
 

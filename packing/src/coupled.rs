@@ -143,7 +143,7 @@ impl Coupled {
         let cohesion = self.cohesion * problem.support() / h;
         let mut forces = Forces::of(problem, Repulsion::none());
         let mut pull = Forces::of_cohesion(&problem.domain, problem.support(), problem.skin());
-        let mut motion = Motion::at_rest(particles.len());
+        let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
         on_surface.refresh(particles);
         let mut watch = Watch::new(particles.len());
@@ -194,7 +194,7 @@ impl Coupled {
         let h = problem.smoothing_length();
         let zeta = self.damping * SYMMETRIC.sqrt() / problem.spacing;
         let mut forces = Forces::of(problem, Repulsion::none());
-        let mut motion = Motion::at_rest(particles.len());
+        let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
         on_surface.refresh(particles);
         course.progress.on_surface = on_surface.index.len();
@@ -263,11 +263,13 @@ fn divide<const D: usize>(
             let normal = body.surface.closest(p).normal;
             let moved = point::add_scaled(p, -problem.spacing, normal);
             let p = if held.distance > 0.0 { moved } else { p };
+            let p = problem.domain.clamp(p);
             inner.push(p, Kind::Free, volume, Some(number));
         } else if kind == Kind::Free && !problem.bodies.is_empty() {
             let hit = outer_surface(problem, p);
             let moved = point::add_scaled(p, -problem.spacing, hit.normal);
             let p = if hit.distance > 0.0 { moved } else { p };
+            let p = problem.domain.clamp(p);
             outer.push(p, Kind::Free, volume, None);
         } else {
             outer.push(p, kind, volume, None);

@@ -128,7 +128,7 @@ impl<'a> Course<'a> {
     ) -> Packed<D> {
         if problem.domain.is_periodic() {
             for (x, kind) in particles.position.iter_mut().zip(&particles.kind) {
-                if *kind == Kind::Free {
+                if *kind != Kind::Frozen {
                     *x = problem.domain.wrap(*x);
                 }
             }

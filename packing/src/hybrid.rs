@@ -106,7 +106,7 @@ impl Hybrid {
         let (h, spacing) = (problem.smoothing_length(), problem.spacing);
         let zeta = self.damping / spacing;
         let mut forces = Forces::of(problem, Repulsion::new(spacing, self.repulsion));
-        let mut motion = Motion::at_rest(particles.len());
+        let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
         on_surface.refresh(&particles);
         on_surface.project(&mut particles, &surfaces, problem.support());

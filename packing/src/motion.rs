@@ -1,7 +1,7 @@
 //! Damped dynamics, as the papers' methods share it.
 
 use rayon::prelude::*;
-use sphpack_neighbors::point;
+use sphpack_neighbors::{Domain, point};
 
 use crate::forces::largest;
 use crate::on_surface::OnSurface;
@@ -10,6 +10,8 @@ use crate::particles::{Kind, Particles};
 /// Velocities, and how they change.
 #[derive(Debug, Clone)]
 pub(crate) struct Motion<const D: usize> {
+    /// Free particles stay in it: where frozen particles are no barrier, as in narrow places beside a wall.
+    domain: Domain<D>,
     velocity: Vec<[f64; D]>,
     /// The largest speed after the last step.
     pub(crate) fastest: f64,
@@ -17,8 +19,9 @@ pub(crate) struct Motion<const D: usize> {
 
 impl<const D: usize> Motion<D> {
     /// `count` particles at rest.
-    pub(crate) fn at_rest(count: usize) -> Self {
+    pub(crate) fn at_rest(domain: &Domain<D>, count: usize) -> Self {
         Self {
+            domain: *domain,
             velocity: vec![[0.0; D]; count],
             fastest: 0.0,
         }
@@ -39,7 +42,7 @@ impl<const D: usize> Motion<D> {
         zeta: f64,
         acceleration: impl Fn(usize) -> [f64; D] + Sync,
     ) {
-        let kind = &particles.kind;
+        let (kind, domain) = (&particles.kind, &self.domain);
         self.velocity
             .par_iter_mut()
             .zip(&mut particles.position)
@@ -50,6 +53,15 @@ impl<const D: usize> Motion<D> {
                 let a = point::add_scaled(acceleration(i), -zeta, *u);
                 *u = on_surface.tangential(i, point::add_scaled(*u, dt, a));
                 *x = point::add_scaled(*x, dt, *u);
+                if kind[i] == Kind::Free {
+                    let kept = domain.clamp(*x);
+                    for k in 0..D {
+                        if kept[k] != x[k] {
+                            u[k] = 0.0;
+                        }
+                    }
+                    *x = kept;
+                }
             });
         self.fastest = largest(self.velocity.len(), |i| point::norm(self.velocity[i]));
     }

@@ -114,7 +114,7 @@ impl Ppa {
         let dt = self.cfl * size;
         let apart = Repulsion::with_reach(size, APART, PAIRED);
         let mut forces = Forces::of(problem, apart);
-        let mut motion = Motion::at_rest(particles.len());
+        let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
         on_surface.refresh(&particles);
         let floor = FLOOR * size;
@@ -191,7 +191,7 @@ impl Ppa {
             }
             p = point::add_scaled(p, lacking, inward(p, &wall));
         }
-        p
+        problem.domain.clamp(p)
     }
 
     /// The sites, those too near to the walls put back. Of those that meet then, in an acute corner, the first is kept:

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sphpack_geometry::{GeometryError, Surface};
+use sphpack_geometry::{GeometryError, Repeated, Surface};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
@@ -49,7 +49,8 @@ pub struct Problem<const D: usize> {
     pub domain: Domain<D>,
     /// ∆s, scene units: the D-th root of a particle's volume.
     pub spacing: f64,
-    /// The bodies; a particle belongs to the first that holds it.
+    /// The bodies; a particle belongs to the first that holds it. [`Problem::placed_body`] adds one so that its images
+    /// across periodic sides are seen.
     pub bodies: Vec<Body<D>>,
     /// The smoothing kernel.
     pub kernel: KernelKind,
@@ -59,6 +60,9 @@ pub struct Problem<const D: usize> {
     pub lattice: Option<Lattice>,
     /// The frozen particles' arrangement.
     pub frozen: FrozenLayout,
+    /// Frozen particles reach at least as far as a kernel of this support (scene units) sees, for whoever judges with a
+    /// longer kernel than packs; 0 where nobody does.
+    pub seen_within: f64,
     /// Where a search for the lattice's phase begins; another seed gives another, equally good packing.
     pub seed: u64,
 }
@@ -181,6 +185,7 @@ impl<const D: usize> Problem<D> {
             h_over_spacing: 1.2,
             lattice: None,
             frozen: FrozenLayout::default(),
+            seen_within: 0.0,
             seed: 0,
         }
     }
@@ -195,9 +200,12 @@ impl<const D: usize> Problem<D> {
         })
     }
 
-    /// Adds a body.
+    /// Adds a body. On periodic axes everything that asks where it is sees its images too.
     #[must_use]
-    pub fn placed_body(mut self, body: Body<D>) -> Self {
+    pub fn placed_body(mut self, mut body: Body<D>) -> Self {
+        if self.domain.is_periodic() {
+            body.surface = Arc::new(Repeated::new(body.surface, &self.domain));
+        }
         self.bodies.push(body);
         self
     }
@@ -228,8 +236,30 @@ impl<const D: usize> Problem<D> {
         self.chosen_lattice().fill(self.domain.bounds, self.spacing)
     }
 
-    /// How deep the frozen layer is, scene units: the support and the skin of the neighbour lists.
+    /// The volume of every body without the bodies in it that come before, and that of the box without all of them last,
+    /// scene units to the power D.
+    pub fn rooms(&self) -> Vec<f64> {
+        let volume = |number: usize| self.bodies[number].surface.volume();
+        let inside = crate::balanced::shares::directly_inside(&self.bodies, self.spacing);
+        (inside.iter().enumerate())
+            .map(|(region, within)| {
+                let whole = if region < self.bodies.len() {
+                    volume(region)
+                } else {
+                    self.domain.bounds.volume()
+                };
+                whole - within.iter().map(|&a| volume(a)).sum::<f64>()
+            })
+            .collect()
+    }
+
+    /// How deep the frozen layer is, scene units: the longer of [`Problem::reach`] and [`Problem::seen_within`].
     pub fn frozen_depth(&self) -> f64 {
+        self.reach().max(self.seen_within)
+    }
+
+    /// What the neighbour lists hold, scene units: the support and their skin.
+    pub fn reach(&self) -> f64 {
         self.support() + self.skin()
     }
 
@@ -335,10 +365,10 @@ impl<const D: usize> Problem<D> {
         } else {
             (area * 2.0 * moves / per_site).min(particles)
         };
-        let around = area * 4.0 * self.frozen_depth() / per_site;
+        let around = area * 4.0 * self.reach() / per_site;
         let seen = (moving + around).min(particles) + frozen;
         // Blocks of eight list every candidate within the reach of any of the eight: about twice the neighbours.
-        let candidates = 2.2 * unit_ball * self.frozen_depth().powi(D as i32) / per_site;
+        let candidates = 2.2 * unit_ball * self.reach().powi(D as i32) / per_site;
         let listed = 4.0 * candidates / 8.0;
         let settling = moving * (HISTORY_BYTES + listed) + seen * SEEN_BYTES;
         let measuring = listed * (particles + frozen).min(slabs::MOST as f64);

@@ -5,6 +5,7 @@ use sphpack_geometry::thickness;
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, KdTree, point};
 
+use crate::closest_pair::ClosestPair;
 use crate::forces::{Forces, blocked_sum, largest};
 use crate::packed::{Packed, ParticleSurface};
 use crate::particles::Kind;
@@ -85,6 +86,11 @@ pub struct Quality {
     pub surface: Vec<SurfaceQuality>,
     /// Smallest distance between two particles, in ∆s.
     pub closest_pair_over_spacing: f64,
+    /// Smallest distance between two particles in the mean of both sizes, V^(1/D), where that is below a half; infinite
+    /// where no two are so near.
+    pub crowded: f64,
+    /// Where that is; empty where it is nowhere.
+    pub crowded_at: Vec<f64>,
 }
 
 impl<const D: usize> Fields<D> {
@@ -219,47 +225,6 @@ impl Spacing {
     }
 }
 
-/// Smallest distance from an asked point to any other; infinite where there is no other. Periodic images are not seen.
-/// `likely` is more than it can sensibly be.
-fn closest_pair<const D: usize>(
-    domain: &Domain<D>,
-    positions: &[[f64; D]],
-    is_asked: impl Fn(usize) -> bool + Sync,
-    likely: f64,
-    most: usize,
-) -> f64 {
-    let mut closest = f64::INFINITY;
-    for Slab { order, is_inside } in slabs::slabs(domain, positions, likely, most) {
-        let near: Vec<[f64; D]> = order.iter().map(|&i| positions[i]).collect();
-        closest = closest.min(closest_of(&near, |k| is_inside[k] && is_asked(order[k])));
-    }
-    if closest <= likely || positions.len() <= most {
-        closest
-    } else {
-        closest_of(positions, is_asked)
-    }
-}
-
-/// The same, all at once.
-fn closest_of<const D: usize>(
-    positions: &[[f64; D]],
-    is_asked: impl Fn(usize) -> bool + Sync,
-) -> f64 {
-    let Ok(tree) = KdTree::new(positions) else {
-        return f64::NAN;
-    };
-    (0..positions.len())
-        .into_par_iter()
-        .with_min_len(1024)
-        .filter(|&i| is_asked(i))
-        .map(|i| {
-            tree.nearest_n(positions[i], 2)
-                .last()
-                .map_or(f64::INFINITY, |hit| hit.distance)
-        })
-        .reduce(|| f64::INFINITY, f64::min)
-}
-
 impl<const D: usize> Packed<D> {
     /// Γ and ∇Γ of all but the frozen particles, by the kernel and h/∆s given (which need not be those that packed).
     /// Frozen particles support a kernel as far as the packing's own reached.
@@ -294,19 +259,26 @@ impl<const D: usize> Packed<D> {
             fields.smoothing_length * point::norm(point::reject(fields.gradient[i], normal))
         });
         let h_over_spacing = fields.smoothing_length / self.spacing;
+        let pair = ClosestPair::of(
+            &self.domain,
+            &particles.position,
+            &particles.volume,
+            |i| particles.kind[i] != Kind::Frozen,
+            2.0 * self.spacing,
+        );
         Quality {
             density: DensityQuality::of(&gamma, self.lattice.gamma(fields.kernel, h_over_spacing)),
             residual: ResidualQuality::of(&free, max_tangential),
             surface: (self.surfaces.iter().zip(&self.bodies).zip(0_u16..))
                 .map(|((surface, name), body)| self.surface_quality(surface, name, body))
                 .collect(),
-            closest_pair_over_spacing: closest_pair(
-                &self.domain,
-                &particles.position,
-                |i| particles.kind[i] != Kind::Frozen,
-                2.0 * self.spacing,
-                slabs::MOST,
-            ) / self.spacing,
+            closest_pair_over_spacing: pair.distance / self.spacing,
+            crowded: pair.crowded,
+            crowded_at: if pair.crowded.is_finite() {
+                pair.place.to_vec()
+            } else {
+                Vec::new()
+            },
         }
     }
 
@@ -386,15 +358,9 @@ mod tests {
                     gradient: vec![[0.0; 3]; positions.len()],
                 };
                 let is_measured = |i: usize| !i.is_multiple_of(7);
-                let fields = blank.measured(&domain, &positions, &volumes, is_measured, most);
-                (
-                    fields,
-                    closest_pair(&domain, &positions, is_measured, 2.0, most),
-                )
+                blank.measured(&domain, &positions, &volumes, is_measured, most)
             };
-            let (whole, pair) = of(usize::MAX);
-            let (parts, same_pair) = of(300);
-            assert_eq!(pair, same_pair);
+            let (whole, parts) = (of(usize::MAX), of(300));
             for i in 0..positions.len() {
                 assert!((whole.gamma[i] - parts.gamma[i]).abs() < 1e-13);
                 assert!(point::distance(whole.gradient[i], parts.gradient[i]) < 1e-13);

@@ -86,7 +86,7 @@ impl Standard {
         let h = problem.smoothing_length();
         let zeta = self.damping / problem.spacing;
         let mut forces = Forces::of(problem, Repulsion::none());
-        let mut motion = Motion::at_rest(particles.len());
+        let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
         on_surface.refresh(&particles);
         let mut stop_reason = StopReason::IterationLimit;

@@ -58,11 +58,15 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     if !arguments.quiet {
         say(&summary::of(&outcome, &written));
     }
-    Ok(match stop_reason(&outcome) {
-        StopReason::Converged => DONE,
+    let status = match stop_reason(&outcome) {
+        StopReason::Converged if outcome.report.audit.passed => DONE,
         StopReason::Interrupted => INTERRUPTED,
-        StopReason::IterationLimit | StopReason::Stagnated => NOT_CONVERGED,
-    })
+        _ => NOT_CONVERGED,
+    };
+    if arguments.quiet && status != DONE {
+        let _ = writeln!(std::io::stderr(), "sphpack: {}", summary::in_a_line(&outcome.report));
+    }
+    Ok(status)
 }
 
 /// Says on standard error what was mended.
@@ -163,8 +167,8 @@ fn threads(number: Option<usize>) -> Result<(), Error> {
 fn dry_run(scene: &Scene, is_quiet: bool) -> Result<u8, Error> {
     let plan = plan(scene, None)?;
     if !is_quiet {
-        for (body, repairs) in scene.body.iter().zip(&plan.repairs) {
-            warn(&body.name, repairs);
+        for (body, repairs) in &plan.repairs {
+            warn(body, repairs);
         }
     }
     let estimate = plan.estimate;
@@ -291,7 +295,7 @@ impl Files {
                     corner(&report.scene.domain.max),
                 ],
                 spacing: report.spacing,
-                is_unfinished: !report.converged,
+                is_unfinished: !(report.converged && report.audit.passed),
             };
             files.write(path, |to| draw(&subject, *format, to))?;
             written.push(shown(path));

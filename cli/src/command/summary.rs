@@ -72,6 +72,9 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
     if let Some(words) = unfinished(report) {
         line(&mut text, "unfinished", &words, None);
     }
+    for (number, words) in audit(report).iter().enumerate() {
+        line(&mut text, if number == 0 { "audit" } else { "" }, words, None);
+    }
     line(
         &mut text,
         "wrote",
@@ -167,6 +170,30 @@ fn packed(report: &Report) -> String {
         };
     }
     words
+}
+
+/// Passed with the figures, or what was found.
+fn audit(report: &Report) -> Vec<String> {
+    let audit = &report.audit;
+    if audit.passed {
+        return vec![format!(
+            "passed: nothing outside, closest pair {:.3} ∆s, volumes within {:.2} %",
+            audit.closest_pair_over_spacing,
+            100.0 * audit.volume_error
+        )];
+    }
+    let mut lines = vec!["FAILED; the files are written, and marked".to_owned()];
+    lines.extend(audit.messages.iter().cloned());
+    lines
+}
+
+/// Why a packing is not done, for those who want no more words.
+pub(super) fn in_a_line(report: &Report) -> String {
+    match (unfinished(report), report.audit.messages.first()) {
+        (Some(words), _) => words,
+        (None, Some(words)) => format!("not sound: {words}; the files are written, and marked"),
+        (None, None) => "done".to_owned(),
+    }
 }
 
 fn unfinished(report: &Report) -> Option<String> {

@@ -48,6 +48,14 @@ pub struct MethodInfo {
     pub kernel: (KernelKind, f64),
     /// The lattices that its paper starts from, in the plane and in space, instead of the one of least Γ.
     pub lattices: Option<[Lattice; 2]>,
+    /// Whether a paper describes it.
+    pub is_published: bool,
+    /// Whether it fills bodies with particles of their volume; else they are walls.
+    pub fills_bodies: bool,
+    /// Whether all its particles have the box's volume together.
+    pub fills_box: bool,
+    /// How far from the lattice's Γ a particle's may be in a sound packing.
+    pub gamma_within: f64,
     /// A line for people.
     pub summary: &'static str,
 }
@@ -61,6 +69,10 @@ const USUAL: MethodInfo = MethodInfo {
     minimises: false,
     kernel: (KernelKind::Quintic, 1.2),
     lattices: None,
+    is_published: true,
+    fills_bodies: true,
+    fills_box: true,
+    gamma_within: 0.3,
     summary: "",
 };
 
@@ -68,6 +80,8 @@ const USUAL: MethodInfo = MethodInfo {
 pub const METHODS: [MethodInfo; 10] = [
     MethodInfo {
         minimises: true,
+        is_published: false,
+        gamma_within: 0.1,
         summary: "surface first, counts balanced, then a minimiser (the default)",
         ..USUAL
     },
@@ -81,6 +95,7 @@ pub const METHODS: [MethodInfo; 10] = [
         method: Method::Standard,
         name: "standard",
         dimensions: &[2],
+        fills_box: false,
         summary: "a solid of offset layers, fluid packed around it; 2-D (paper 001)",
         ..USUAL
     },
@@ -115,6 +130,8 @@ pub const METHODS: [MethodInfo; 10] = [
     MethodInfo {
         method: Method::Ppa,
         name: "ppa",
+        fills_bodies: false,
+        fills_box: false,
         summary: "fluid at rest between walls that never move, for containers (paper 002)",
         ..USUAL
     },
@@ -128,6 +145,7 @@ pub const METHODS: [MethodInfo; 10] = [
         method: Method::Triangulated,
         name: "triangulated",
         dimensions: &[2],
+        fills_box: false,
         summary: "bodies cut into triangles that carry their area, not moved; 2-D: what to compare with",
         ..USUAL
     },

@@ -13,6 +13,7 @@ mod interrupts;
 mod measuring;
 mod particle_files;
 mod precedence;
+mod sound;
 mod surroundings;
 
 use std::fs;

@@ -19,6 +19,8 @@ type Side = ([i64; 2], usize);
 /// The curve as seen from the points of a grid.
 struct Grid<'a, const D: usize, F> {
     near: &'a F,
+    /// Beyond this there may be other curves, which are not asked for.
+    bounds: Bounds<D>,
     origin: [f64; D],
     cell: f64,
     /// Signed distance at points of the grid.
@@ -49,6 +51,7 @@ pub(super) fn rings<const D: usize>(
     let shift = (0.5 * width as f64 + 0.37) * cell;
     let mut grid = Grid {
         near,
+        bounds: *bounds,
         origin: bounds.center().map(|x| x - shift),
         cell,
         height: HashMap::new(),
@@ -74,6 +77,13 @@ impl<const D: usize, F: Fn([f64; D]) -> Closest<D>> Grid<'_, D, F> {
     fn search(&mut self, low: [i64; 2], width: i64) {
         let half = 0.5 * width as f64;
         let center = self.place(low[0] as f64 + half, low[1] as f64 + half);
+        if !self
+            .bounds
+            .grown(half * self.cell * (1.0 + 1e-9))
+            .contains(center)
+        {
+            return;
+        }
         let reach = half * self.cell * std::f64::consts::SQRT_2 * (1.0 + 1e-9);
         if (self.near)(center).distance.abs() > reach {
             return;

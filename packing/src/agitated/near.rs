@@ -49,8 +49,7 @@ impl<const D: usize> Near<D> {
                 if particles.kind[i] == Kind::Frozen {
                     return Vec::new();
                 }
-                images(domain, places[i], reach + skin)
-                    .into_iter()
+                (domain.images(places[i], reach + skin))
                     .flat_map(|image| tree.within(image, reach + skin))
                     .filter(|found| found.index != i)
                     .map(|found| found.index as u32)
@@ -90,24 +89,4 @@ impl<const D: usize> Near<D> {
             })
             .collect_into_vec(out);
     }
-}
-
-/// The place, and its images across periodic sides that are within `reach` of the box.
-fn images<const D: usize>(domain: &Domain<D>, place: [f64; D], reach: f64) -> Vec<[f64; D]> {
-    let (bounds, size) = (domain.bounds, domain.bounds.size());
-    let mut all = vec![place];
-    for k in (0..D).filter(|&k| domain.periodic[k]) {
-        for n in 0..all.len() {
-            let mut image = all[n];
-            if place[k] < bounds.min[k] + reach {
-                image[k] = place[k] + size[k];
-                all.push(image);
-            }
-            if place[k] > bounds.max[k] - reach {
-                image[k] = place[k] - size[k];
-                all.push(image);
-            }
-        }
-    }
-    all
 }

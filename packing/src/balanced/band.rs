@@ -1,6 +1,6 @@
 //! Only what is near a surface moves.
 
-use super::shares::Depths;
+use crate::depths::Depths;
 use crate::forces::{Forces, largest};
 use crate::minimise::Finish;
 use crate::particles::{Kind, Particles};
@@ -51,7 +51,7 @@ impl Band {
 impl<const D: usize> Part<D> {
     /// The part within `width` (scene units) of a surface.
     pub(super) fn of(problem: &Problem<D>, particles: &Particles<D>, width: f64) -> Self {
-        let sight = problem.frozen_depth();
+        let sight = problem.reach();
         let distance = if width.is_finite() {
             distances(problem, particles)
         } else {

@@ -6,22 +6,25 @@ pub(crate) mod shares;
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
 use std::time::Instant;
 
-use sphpack_geometry::{Closest, Feature, GeometryError, SurfaceSamples, sample_particles};
+use sphpack_geometry::{
+    Closest, Feature, GeometryError, Surface, SurfaceSamples, sample_particles,
+};
 
 use crate::course::Course;
+use crate::depths::Depths;
 use crate::forces::Forces;
 use crate::minimise::{Landscape, Settling};
 use crate::observer::{Observer, Phase};
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
-use crate::problem::{DEFAULT_INSET_OVER_SPACING, PackingError, Problem};
+use crate::problem::{Body, DEFAULT_INSET_OVER_SPACING, PackingError, Problem};
 use crate::seeding::{Seeds, seed_lattice};
 pub use band::Band;
 use band::Part;
 use clashes::Clash;
-use shares::Depths;
 
 /// The balanced method.
 ///
@@ -50,6 +53,15 @@ const WIDER: f64 = 1.5;
 const MOST_WIDENINGS: usize = 8;
 
 impl Balanced {
+    /// Whether the problem can be packed, as far as that is known before particles are placed.
+    ///
+    /// # Errors
+    /// Those of [`Balanced::pack`].
+    pub fn check<const D: usize>(problem: &Problem<D>) -> Result<(), PackingError> {
+        problem.check()?;
+        problem.bodies.iter().try_for_each(|body| inset(problem, body).map(drop))
+    }
+
     /// Packs the problem.
     ///
     /// # Errors
@@ -168,6 +180,28 @@ fn place<const D: usize>(
     Seeds::surrounded(problem, particles, frozen_lattice, volume)
 }
 
+/// Whether a body is packed without a particle surface where it is too thin for one. A deeper surface than usual is asked
+/// for as it is.
+fn is_usual<const D: usize>(body: &Body<D>) -> bool {
+    body.inset_over_spacing <= DEFAULT_INSET_OVER_SPACING
+}
+
+/// A body's particle surface, `None` where it is so thin that it has none.
+fn inset<const D: usize>(
+    problem: &Problem<D>,
+    body: &Body<D>,
+) -> Result<Option<Arc<dyn Surface<D>>>, PackingError> {
+    let depth = body.inset_over_spacing * problem.spacing;
+    match body.surface.inset(depth) {
+        Ok(inset) => Ok(Some(inset)),
+        Err(GeometryError::Vanished { .. }) if is_usual(body) => Ok(None),
+        Err(source) => Err(PackingError::Surface {
+            body: body.name.clone(),
+            source,
+        }),
+    }
+}
+
 type Sampled<const D: usize> = (Vec<ParticleSurface<D>>, Vec<Vec<Closest<D>>>);
 
 /// Every particle surface with its points. Points in the middle of parts that are too thin to have a surface count as
@@ -181,13 +215,8 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
             source,
         };
         let depth = body.inset_over_spacing * problem.spacing;
-        // A deeper surface than usual is asked for as it is.
-        let is_usual = body.inset_over_spacing <= DEFAULT_INSET_OVER_SPACING;
-        let inset = match body.surface.inset(depth) {
-            Ok(inset) => Some(inset),
-            Err(GeometryError::Vanished { .. }) if is_usual => None,
-            Err(error) => return Err(fail(error)),
-        };
+        let is_usual = is_usual(body);
+        let inset = inset(problem, body)?;
         let found = match &inset {
             Some(surface) if !is_usual => {
                 let count = surface.measure() / problem.spacing.powi(D as i32 - 1);

@@ -1,134 +1,12 @@
 //! Who gets how many particles, and which lattice sites they are.
 
-use rayon::prelude::*;
 use sphpack_geometry::Surface;
-use sphpack_neighbors::{Bounds, point};
+use sphpack_neighbors::point;
 
 use super::clashes::Clash;
+use crate::depths::Depths;
 use crate::packed::ParticleSurface;
 use crate::problem::{Body, Problem};
-
-/// Sites per edge of a cube of sites that is asked about as a whole.
-const CUBE: f64 = 4.0;
-
-/// Signed distances of sites to every body: exact near a surface, right to first order and of the right sign elsewhere.
-#[derive(Debug)]
-pub(crate) struct Depths {
-    bodies: usize,
-    /// Site after site, one entry per body.
-    phi: Vec<f64>,
-}
-
-/// What is seen of a body from a place: the signed distance, and the direction in which it grows.
-#[derive(Debug, Clone, Copy)]
-struct Seen<const D: usize> {
-    distance: f64,
-    gradient: [f64; D],
-}
-
-impl<const D: usize> Seen<D> {
-    fn from(body: &Body<D>, place: [f64; D]) -> Self {
-        let hit = body.surface.closest(place);
-        let away = point::unit(point::sub(place, hit.point)).unwrap_or([0.0; D]);
-        Self {
-            distance: hit.distance,
-            gradient: point::scale(away, hit.distance.signum()),
-        }
-    }
-}
-
-impl Depths {
-    /// How far a distance may be off where it is not exact, scene units.
-    pub(super) fn error<const D: usize>(spacing: f64) -> f64 {
-        CUBE * spacing * (D as f64).sqrt()
-    }
-
-    /// Exact within `near` (scene units) of a surface, and nowhere nearer than that by mistake. One query per cube of
-    /// [`CUBE`] sites a side, and one per site where that cube is near a surface; elsewhere the distance of the cube's
-    /// middle is continued along its gradient, off by the cube's diagonal at most.
-    pub(crate) fn of<const D: usize>(
-        bodies: &[Body<D>],
-        bounds: Bounds<D>,
-        spacing: f64,
-        near: f64,
-        sites: &[[f64; D]],
-    ) -> Self {
-        let size = bounds.size();
-        let cubes: [usize; D] =
-            std::array::from_fn(|k| (size[k] / (CUBE * spacing)).ceil().max(1.0) as usize);
-        let edge: [f64; D] = std::array::from_fn(|k| size[k] / cubes[k] as f64);
-        let radius = 0.5 * point::norm(edge);
-        let centers: Vec<[f64; D]> = (0..cubes.iter().product::<usize>())
-            .map(|cube| {
-                let mut rest = cube;
-                std::array::from_fn(|k| {
-                    let i = rest % cubes[k];
-                    rest /= cubes[k];
-                    bounds.min[k] + edge[k] * (i as f64 + 0.5)
-                })
-            })
-            .collect();
-        let far: Vec<Vec<Seen<D>>> = bodies
-            .iter()
-            .map(|body| {
-                centers
-                    .par_iter()
-                    .with_min_len(64)
-                    .map(|&c| Seen::from(body, c))
-                    .collect()
-            })
-            .collect();
-        let cube_of = |p: [f64; D]| {
-            let mut cube = 0;
-            for k in (0..D).rev() {
-                // The cast saturates at 0.
-                let i = ((p[k] - bounds.min[k]) / edge[k]) as usize;
-                cube = cube * cubes[k] + i.min(cubes[k] - 1);
-            }
-            cube
-        };
-        let mut phi = vec![0.0; sites.len() * bodies.len()];
-        if !bodies.is_empty() {
-            phi.par_chunks_mut(bodies.len())
-                .zip(sites)
-                .with_min_len(256)
-                .for_each(|(phi, &site)| {
-                    let cube = cube_of(site);
-                    for ((phi, body), far) in phi.iter_mut().zip(bodies).zip(&far) {
-                        let seen = &far[cube];
-                        *phi = if seen.distance.abs() > radius + near {
-                            let way = point::sub(site, centers[cube]);
-                            seen.distance + point::dot(seen.gradient, way)
-                        } else {
-                            body.surface.closest(site).distance
-                        };
-                    }
-                });
-        }
-        Self {
-            bodies: bodies.len(),
-            phi,
-        }
-    }
-
-    /// How far a site is from the nearest surface, infinite where there is none.
-    pub(super) fn to_surface(&self, site: usize) -> f64 {
-        self.phi[site * self.bodies..(site + 1) * self.bodies]
-            .iter()
-            .fold(f64::INFINITY, |least, phi| least.min(phi.abs()))
-    }
-
-    /// How deep a site is in a region, negative outside: in body `region` and no earlier one, or, with `region` the
-    /// number of bodies, in the fluid.
-    pub(super) fn within(&self, region: usize, site: usize) -> f64 {
-        let phi = &self.phi[site * self.bodies..(site + 1) * self.bodies];
-        let outside = phi[..region].iter().copied().fold(f64::INFINITY, f64::min);
-        match phi.get(region) {
-            Some(&own) => outside.min(-own),
-            None => outside,
-        }
-    }
-}
 
 /// The volumes on both sides of a true surface that its surface particles stand for: a layer ∆s thick around the
 /// particle surface.
@@ -182,12 +60,14 @@ pub(super) struct Shares {
     pub(super) surface_volume: Vec<f64>,
 }
 
-/// Volumes stay within this factor of a site's, whatever the bodies' formulas say.
+/// Surface particles keep within this factor of a site's volume while there are others to take the rest.
 const VOLUME_LIMIT: f64 = 1.5;
 
 /// Shares out `sites` lattice sites, as many particles as there are to be in all; `on_surface` counts each body's
 /// surface particles. A region has the volume of its body, or of the box, without the bodies inside it that come
-/// before, and without the layers of surface particles. The sum of all particles' volumes is the box's.
+/// before, and without the layers of surface particles. Where a region has no room for a particle of its own beside its
+/// surface particles, these have its whole volume; where it has neither, less than half a particle, its volume is left to
+/// what is around it. The sum of all particles' volumes is the box's.
 pub(super) fn shares<const D: usize>(
     problem: &Problem<D>,
     surfaces: &[ParticleSurface<D>],
@@ -198,62 +78,65 @@ pub(super) fn shares<const D: usize>(
 ) -> Shares {
     let bodies = &problem.bodies;
     let spacing = volume_per_site.powf(1.0 / D as f64);
-    let mut layers: Vec<Layer> = bodies
-        .iter()
-        .zip(surfaces)
-        .map(|(body, surface)| Layer::of(body, surface.surface.as_ref(), spacing))
-        .collect();
-    let surface_volume: Vec<f64> = layers
-        .iter_mut()
-        .zip(on_surface.iter().zip(clashes))
-        .map(|(layer, (&count, clash))| {
-            // Points that were left to another body are still part of this one's layer.
-            let count = count + clash.removed;
-            let whole = layer.inner + layer.outer;
-            let one = whole / count.max(1) as f64;
-            let volume = one.clamp(
-                volume_per_site / VOLUME_LIMIT,
-                volume_per_site * VOLUME_LIMIT,
-            );
-            // What the particles of the layer do not take is left to the sites around.
-            let taken = volume * count as f64 / whole.max(f64::MIN_POSITIVE);
-            *layer = Layer {
-                inner: layer.inner * taken,
-                outer: (layer.outer * taken - 0.5 * volume * clash.shared as f64).max(0.0),
-            };
-            volume
-        })
-        .collect();
     let direct = directly_inside(bodies, problem.spacing);
     let mut left = sites.saturating_sub(on_surface.iter().sum());
-    let mut regions = Vec::with_capacity(bodies.len() + 1);
-    for region in 0..=bodies.len() {
-        let mut volume = match bodies.get(region) {
-            Some(body) => body.surface.volume() - layers[region].inner,
-            None => problem.domain.bounds.volume(),
-        };
-        for &a in &direct[region] {
-            volume -= bodies[a].surface.volume() + layers[a].outer;
-        }
-        let own = if region < bodies.len() {
-            ((volume / volume_per_site).round().max(0.0) as usize).min(left)
-        } else {
-            left
-        };
+    let mut regions: Vec<Share> = Vec::with_capacity(bodies.len() + 1);
+    let mut surface_volume = Vec::with_capacity(bodies.len());
+    // What each body takes from whatever is around it.
+    let mut taken: Vec<f64> = Vec::with_capacity(bodies.len());
+    for (number, body) in bodies.iter().enumerate() {
+        let within: f64 = direct[number].iter().map(|&a| taken[a]).sum();
+        let room = body.surface.volume() - within;
+        let clash = clashes[number];
+        // Points that were left to another body are still part of this one's layer.
+        let count = (on_surface[number] + clash.removed) as f64;
+        let layer = Layer::of(body, surfaces[number].surface.as_ref(), spacing);
+        let whole = layer.inner + layer.outer;
+        let inner_share = layer.inner / whole.max(f64::MIN_POSITIVE);
+        let usual = (whole / count.max(1.0)).clamp(
+            volume_per_site / VOLUME_LIMIT,
+            volume_per_site * VOLUME_LIMIT,
+        );
+        let rest = room - usual * count * inner_share;
+        let own = ((rest / volume_per_site).round().max(0.0) as usize).min(left);
         left -= own;
-        let particle_volume = if own > 0 {
-            (volume / own as f64).clamp(
-                volume_per_site / VOLUME_LIMIT,
-                volume_per_site * VOLUME_LIMIT,
-            )
+        // What the particles of the layer do not take is left to the sites within.
+        let (volume, particle_volume) = if own > 0 {
+            (usual, rest / own as f64)
+        } else if count * inner_share > 0.0 {
+            (room / (count * inner_share), volume_per_site)
         } else {
-            volume_per_site
+            (usual, volume_per_site)
         };
+        let outer = volume * count * (1.0 - inner_share) - 0.5 * volume * clash.shared as f64;
+        taken.push(if own > 0 || count > 0.0 {
+            body.surface.volume() + outer.max(0.0)
+        } else {
+            within
+        });
+        surface_volume.push(volume);
         regions.push(Share {
             sites: own,
             particle_volume,
         });
     }
+    let within: f64 = direct[bodies.len()].iter().map(|&a| taken[a]).sum();
+    let room = problem.domain.bounds.volume() - within;
+    let fit = (room / volume_per_site).round().max(0.0);
+    // All sites that are left, unless bodies have almost all the room: then there may be some too many.
+    let own = if left as f64 > VOLUME_LIMIT * fit {
+        fit as usize
+    } else {
+        left
+    };
+    regions.push(Share {
+        sites: own,
+        particle_volume: if own > 0 {
+            room / own as f64
+        } else {
+            volume_per_site
+        },
+    });
     Shares {
         regions,
         surface_volume,

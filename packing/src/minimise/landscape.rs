@@ -7,6 +7,7 @@ use sphpack_neighbors::point;
 
 use super::Calm;
 use super::sides::Sides;
+use super::walls::Walls;
 use super::vectors;
 use crate::forces::{Forces, Levelling};
 use crate::on_surface::OnSurface;
@@ -29,6 +30,7 @@ pub struct Landscape<'a, const D: usize> {
     calm: Option<Calm<D>>,
     on_surface: OnSurface<D>,
     sides: Sides<D>,
+    walls: Walls<D>,
     spacing: f64,
     smoothing_length: f64,
     reach: f64,
@@ -56,6 +58,7 @@ impl<'a, const D: usize> Landscape<'a, D> {
             .collect();
         let mut on_surface = OnSurface::default();
         on_surface.refresh(particles);
+        let domain = *forces.list().domain();
         let mut landscape = Self {
             smoothing_length: forces.smoothing_length(),
             force: vec![[0.0; D]; mobile.len()],
@@ -66,6 +69,7 @@ impl<'a, const D: usize> Landscape<'a, D> {
             calm: None,
             on_surface,
             sides: Sides::default(),
+            walls: Walls::new(domain),
             spacing,
             reach,
             mobile,
@@ -168,7 +172,12 @@ impl<'a, const D: usize> Landscape<'a, D> {
     /// are nearer now. Costs a look at every particle near a surface.
     pub fn keep_sides(&mut self) {
         let start = Instant::now();
-        self.sides = Sides::of(self.particles, self.surfaces, self.spacing);
+        self.sides = Sides::of(
+            self.particles,
+            self.surfaces,
+            self.forces.list().domain(),
+            self.spacing,
+        );
         self.projection_seconds += start.elapsed().as_secs_f64();
     }
 
@@ -226,6 +235,7 @@ impl<'a, const D: usize> Landscape<'a, D> {
                 .project(self.particles, self.surfaces, self.reach);
         }
         self.sides.keep(self.particles, self.surfaces);
+        self.walls.keep(self.particles, &self.mobile);
         self.projection_seconds += start.elapsed().as_secs_f64();
     }
 
@@ -269,6 +279,13 @@ impl<'a, const D: usize> Landscape<'a, D> {
                 && point::dot(self.force[place], away) < 0.0
             {
                 self.force[place] = point::reject(self.force[place], away);
+            }
+        }
+        for (i, axis, inward) in self.walls.held() {
+            if let Ok(place) = self.mobile.binary_search(&(i as u32))
+                && self.force[place][axis] * inward < 0.0
+            {
+                self.force[place][axis] = 0.0;
             }
         }
     }

@@ -36,6 +36,7 @@ mod sides;
 #[cfg(test)]
 mod tests;
 mod vectors;
+mod walls;
 
 pub use calm::Calm;
 pub use damped::Damped;

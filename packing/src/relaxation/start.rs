@@ -2,7 +2,8 @@
 
 use sphpack_geometry::GeometryError;
 
-use crate::balanced::shares::{Depths, Share, choose, directly_inside};
+use crate::balanced::shares::{Share, choose, directly_inside};
+use crate::depths::Depths;
 use crate::lattice::{Filling, Lattice};
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};

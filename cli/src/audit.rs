@@ -1,0 +1,323 @@
+//! What a packing must be before anyone is told that it is done.
+
+use serde::Serialize;
+use sphpack_neighbors::point;
+use sphpack_packing::closest_pair::CROWDED;
+use sphpack_packing::{Depths, Kind};
+use sphpack_separation::Side;
+
+use crate::run::Solution;
+use crate::scene::{Role, Scene};
+
+/// A particle is on the wrong side of a true surface that is deeper behind it than this, in ∆s.
+const WRONG_SIDE_OVER_SPACING: f64 = 0.1;
+
+/// A particle on a surface is within this of it, in ∆s.
+const ON_SURFACE_OVER_SPACING: f64 = 1e-6;
+
+/// A body's volume is right to this part of it, or to half a particle, whichever is larger.
+const VOLUME_WITHIN: f64 = 0.01;
+
+/// All volumes together are the box's, to this part of it.
+const WHOLE_WITHIN: f64 = 1e-9;
+
+/// The content of report.json's `audit`: a packing, looked at by what it promises, after it was separated.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Audit {
+    /// Whether nothing was found.
+    pub passed: bool,
+    /// Particles outside the box; on periodic axes, not between its sides.
+    pub outside: usize,
+    /// Smallest distance of two particles, images counted, in ∆s.
+    pub closest_pair_over_spacing: f64,
+    /// Largest part by which the volume of a body, or of all particles, is off what was asked for.
+    pub volume_error: f64,
+    /// Particles that an exact closest point says are on the other side of a surface, or off theirs.
+    pub wrong_side: usize,
+    /// Smallest Γ.
+    pub gamma_min: f64,
+    /// Largest Γ.
+    pub gamma_max: f64,
+    /// Where the first of `messages` is seen worst; empty where it has no place.
+    pub worst_at: Vec<f64>,
+    /// What is wrong, the likely cause and the cure; a sentence each.
+    pub messages: Vec<String>,
+}
+
+impl Audit {
+    fn found<const D: usize>(&mut self, message: String, at: Option<[f64; D]>) {
+        if self.messages.is_empty() {
+            self.worst_at = at.map_or_else(Vec::new, |p| p.to_vec());
+        }
+        let place = at.map_or_else(String::new, |p| format!(", worst at {}", words(p)));
+        self.messages.push(format!("{message}{place}"));
+        self.passed = false;
+    }
+
+    /// Audits a separated packing. `volumes` are those of every body's particles, and of the fluid's last.
+    pub(crate) fn of<const D: usize>(
+        scene: &Scene,
+        solution: &Solution<D>,
+        volumes: &[f64],
+    ) -> Self {
+        let quality = &solution.quality;
+        let mut audit = Self {
+            passed: true,
+            outside: 0,
+            closest_pair_over_spacing: quality.closest_pair_over_spacing,
+            volume_error: 0.0,
+            wrong_side: 0,
+            gamma_min: quality.density.min,
+            gamma_max: quality.density.max,
+            worst_at: Vec::new(),
+            messages: Vec::new(),
+        };
+        audit.numbers(solution);
+        if audit.passed {
+            audit.places(solution);
+            audit.pairs(solution);
+            audit.volumes(scene, solution, volumes);
+            audit.sides(scene, solution);
+            audit.density(scene, solution);
+        }
+        if !audit.passed {
+            audit.messages.push(cure(scene));
+        }
+        audit
+    }
+
+    /// Numbers are finite, ids unique.
+    fn numbers<const D: usize>(&mut self, solution: &Solution<D>) {
+        let particles = &solution.packed.particles;
+        let bad = (0..particles.len()).find(|&i| {
+            !(point::is_finite(particles.position[i])
+                && particles.volume[i].is_finite()
+                && particles.volume[i] > 0.0
+                && solution.fields.gamma[i].is_finite()
+                && point::is_finite(solution.fields.gradient[i]))
+        });
+        if let Some(i) = bad {
+            let message = format!(
+                "particle {} has a place, volume or density that is no finite, positive number",
+                particles.id[i]
+            );
+            self.found::<D>(message, None);
+        }
+        let mut ids = particles.id.clone();
+        ids.sort_unstable();
+        if let Some(pair) = ids.windows(2).find(|pair| pair[0] == pair[1]) {
+            self.found::<D>(format!("two particles have the number {}", pair[0]), None);
+        }
+    }
+
+    /// Nothing is outside the box.
+    fn places<const D: usize>(&mut self, solution: &Solution<D>) {
+        let particles = &solution.packed.particles;
+        let domain = &solution.packed.domain;
+        let slack = 1e-9 * solution.packed.spacing;
+        let mut worst = (0.0, [0.0; D]);
+        for i in (0..particles.len()).filter(|&i| particles.kind[i] != Kind::Frozen) {
+            let p = particles.position[i];
+            let beyond = (0..D).fold(0.0, |most: f64, k| {
+                most.max(domain.bounds.min[k] - p[k])
+                    .max(p[k] - domain.bounds.max[k])
+            });
+            if beyond > slack {
+                self.outside += 1;
+                if beyond > worst.0 {
+                    worst = (beyond, p);
+                }
+            }
+        }
+        if self.outside > 0 {
+            let message = format!(
+                "{} outside the box, by up to {:.2} spacings",
+                particles_are(self.outside),
+                worst.0 / solution.packed.spacing
+            );
+            self.found(message, Some(worst.1));
+        }
+    }
+
+    /// No two particles are in the room of one.
+    fn pairs<const D: usize>(&mut self, solution: &Solution<D>) {
+        let quality = &solution.quality;
+        if quality.crowded < CROWDED || quality.closest_pair_over_spacing.is_nan() {
+            let at = std::array::from_fn(|k| quality.crowded_at.get(k).copied().unwrap_or(0.0));
+            let message = format!(
+                "two particles are only {:.3} of their size apart",
+                quality.crowded
+            );
+            self.found::<D>(message, Some(at));
+        }
+    }
+
+    /// Every body has the volume that was asked for, and all together the box's.
+    fn volumes<const D: usize>(&mut self, scene: &Scene, solution: &Solution<D>, volumes: &[f64]) {
+        let info = scene.packing.method.info();
+        let problem = &solution.problem;
+        let particles = &solution.packed.particles;
+        let site = problem.filling().volume_per_site();
+        let rooms = problem.rooms();
+        let solid = |b: usize| scene.body.get(b).is_none_or(|body| body.role == Role::Solid);
+        for (number, body) in problem.bodies.iter().enumerate() {
+            if !(info.fills_bodies && solid(number)) {
+                continue;
+            }
+            let (asked, has) = (rooms[number], volumes[number]);
+            let off = (has - asked).abs();
+            self.volume_error = self.volume_error.max(off / asked.max(site));
+            if off > (VOLUME_WITHIN * asked).max(0.5 * site) * (1.0 + 1e-9) {
+                let message = format!(
+                    "the particles of body \"{}\" have {:+.2} % of its volume too much ({has:.4} for {asked:.4})",
+                    body.name,
+                    100.0 * (has - asked) / asked
+                );
+                self.found(message, Some(body.surface.bounds().center()));
+            }
+        }
+        if info.fills_box {
+            let whole = problem.domain.bounds.volume();
+            let sum: f64 = (0..particles.len())
+                .filter(|&i| particles.kind[i] != Kind::Frozen)
+                .map(|i| particles.volume[i])
+                .sum();
+            // Where the fluid has no particle, it may lack half of one.
+            let has_fluid = volumes[problem.bodies.len()] > 0.0;
+            let slack = WHOLE_WITHIN * whole + if has_fluid { 0.0 } else { 0.5 * site };
+            let off = sum - whole;
+            self.volume_error = self.volume_error.max(off.abs() / whole);
+            if off.abs() > slack {
+                let message = format!(
+                    "all particles together have {:+.3e} of the box's volume too much",
+                    off / whole
+                );
+                self.found::<D>(message, None);
+            }
+        }
+    }
+
+    /// Every particle is where its label says, by the exact closest point.
+    fn sides<const D: usize>(&mut self, scene: &Scene, solution: &Solution<D>) {
+        let Solution {
+            problem,
+            packed,
+            labels,
+            ..
+        } = solution;
+        let particles = &packed.particles;
+        let spacing = packed.spacing;
+        let far = solution.quality.surface.iter().fold(0.0, |most: f64, surface| {
+            most.max(surface.max_distance_over_spacing)
+        });
+        if far > ON_SURFACE_OVER_SPACING {
+            self.wrong_side += 1;
+            let message = format!("a boundary particle is {far:.1e} spacings off its surface");
+            self.found::<D>(message, None);
+        }
+        let free: Vec<usize> = (0..particles.len())
+            .filter(|&i| particles.kind[i] == Kind::Free)
+            .collect();
+        let places: Vec<[f64; D]> = free.iter().map(|&i| particles.position[i]).collect();
+        let slack = WRONG_SIDE_OVER_SPACING * spacing;
+        let bounds = problem.domain.bounds;
+        let depths = Depths::of(&problem.bodies, bounds, spacing, slack, &places);
+        let role = |b: usize| scene.body.get(b).map_or(Role::Solid, |body| body.role);
+        let mut count = 0;
+        let mut worst = (0.0, [0.0; D], String::new());
+        for (place, &i) in free.iter().enumerate() {
+            if !solution.keep[i] {
+                continue;
+            }
+            let held = labels.body[i].map(usize::from);
+            for (b, body) in problem.bodies.iter().enumerate() {
+                let phi = depths.to_body(b, place);
+                let (beyond, how) = match (held, role(b)) {
+                    (Some(own), Role::Solid) if own == b => (phi, "out of"),
+                    (_, Role::Container) => (phi, "out of"),
+                    (None, _) => (-phi, "in"),
+                    _ => continue,
+                };
+                if beyond <= slack {
+                    continue;
+                }
+                // Containers beside each other: within one is enough.
+                let is_elsewhere = role(b) == Role::Container
+                    && (0..problem.bodies.len()).any(|c| {
+                        role(c) == Role::Container && depths.to_body(c, place) <= slack
+                    });
+                if is_elsewhere {
+                    continue;
+                }
+                count += 1;
+                if beyond > worst.0 {
+                    let what = match labels.side[i] {
+                        Side::Solid => "solid",
+                        Side::Fluid => "fluid",
+                    };
+                    let words = format!("{what}, {:.2} spacings {how} \"{}\"", beyond / spacing, body.name);
+                    worst = (beyond, places[place], words);
+                }
+                break;
+            }
+        }
+        if count > 0 {
+            self.wrong_side += count;
+            let message = format!(
+                "{} on the wrong side of a surface: the worst is {}",
+                particles_are(count),
+                worst.2
+            );
+            self.found(message, Some(worst.1));
+        }
+    }
+
+    /// Γ is what the method can do.
+    fn density<const D: usize>(&mut self, scene: &Scene, solution: &Solution<D>) {
+        let within = scene.packing.method.info().gamma_within;
+        let (fields, particles) = (&solution.fields, &solution.packed.particles);
+        let lattice = solution.quality.density.lattice;
+        let mut worst = (0.0, [0.0; D], 0.0);
+        for i in (0..particles.len()).filter(|&i| particles.kind[i] != Kind::Frozen) {
+            let off = (fields.gamma[i] - lattice).abs();
+            if solution.keep[i] && off > worst.0 {
+                worst = (off, particles.position[i], fields.gamma[i]);
+            }
+        }
+        if worst.0 > within {
+            let message = format!(
+                "the density is off by {:.1} % (Γ = {:.4}), more than the {:.0} % that method \"{}\" stays within",
+                100.0 * worst.0,
+                worst.2,
+                100.0 * within,
+                scene.packing.method.name()
+            );
+            self.found(message, Some(worst.1));
+        }
+    }
+}
+
+fn particles_are(count: usize) -> String {
+    match count {
+        1 => "1 particle is".to_owned(),
+        n => format!("{n} particles are"),
+    }
+}
+
+fn words<const D: usize>(p: [f64; D]) -> String {
+    let all: Vec<String> = p.iter().map(|x| format!("{x:.4}")).collect();
+    format!("({})", all.join(", "))
+}
+
+/// What most likely helps.
+fn cure(scene: &Scene) -> String {
+    let info = scene.packing.method.info();
+    if info.is_published {
+        format!(
+            "method \"{}\" does as its paper says, which does not keep this from happening; method = \"balanced\" does better, or a smaller spacing",
+            info.name
+        )
+    } else {
+        "places thinner or narrower than two spacings are the likely cause; a smaller spacing there, more room around the bodies, or a plainer body will do".to_owned()
+    }
+}

@@ -1,0 +1,41 @@
+//! How much of every body the particles hold.
+
+use sphpack_neighbors::point;
+use sphpack_packing::{Kind, Problem};
+
+use crate::run::Solution;
+
+/// How far behind a surface it is asked who is there, in ∆s.
+const BEYOND_OVER_SPACING: f64 = 0.1;
+
+/// The volume of every body's particles, and of the fluid's last, by labels: what roles leave out is in it too. Of a
+/// particle on a surface that is less than ∆s/2 inside the true one, a part is beyond it (half, on an exact surface): that
+/// belongs to whatever is there, another body or the fluid.
+pub(crate) fn volumes<const D: usize>(problem: &Problem<D>, solution: &Solution<D>) -> Vec<f64> {
+    let Solution { packed, labels, .. } = solution;
+    let particles = &packed.particles;
+    let bodies = &problem.bodies;
+    let mut volumes = vec![0.0; bodies.len() + 1];
+    for i in (0..particles.len()).filter(|&i| particles.kind[i] != Kind::Frozen) {
+        let volume = particles.volume[i];
+        let holder = labels.body[i].map_or(bodies.len(), usize::from);
+        let on = (particles.body[i].map(usize::from))
+            .filter(|_| particles.kind[i].is_on_surface())
+            .map_or(1.0, |body| bodies[body].inner_share());
+        volumes[holder] += on * volume;
+        if on < 1.0 {
+            let own = particles.body[i].map_or(0, usize::from);
+            let hit = bodies[own].surface.closest(particles.position[i]);
+            let beyond = point::add_scaled(
+                hit.point,
+                BEYOND_OVER_SPACING * problem.spacing,
+                hit.normal,
+            );
+            let there = (0..bodies.len())
+                .find(|&b| b != own && bodies[b].surface.inside(beyond))
+                .unwrap_or(bodies.len());
+            volumes[there] += (1.0 - on) * volume;
+        }
+    }
+    volumes
+}

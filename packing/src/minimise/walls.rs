@@ -1,0 +1,52 @@
+//! Free particles stay in the box.
+
+use sphpack_neighbors::Domain;
+
+use crate::particles::{Kind, Particles};
+
+/// Keeps free particles within the sides of the box that are not periodic. Frozen particles alone are no barrier: where a
+/// thin body holds too many particles, or two bodies leave a narrow place between them, some are pushed through.
+#[derive(Debug)]
+pub(super) struct Walls<const D: usize> {
+    domain: Domain<D>,
+    /// Particles that were put back, with the axis and which way is into the box.
+    held: Vec<(u32, usize, f64)>,
+}
+
+impl<const D: usize> Walls<D> {
+    pub(super) fn new(domain: Domain<D>) -> Self {
+        Self {
+            domain,
+            held: Vec::new(),
+        }
+    }
+
+    /// Puts free particles that left the box back onto its side.
+    pub(super) fn keep(&mut self, particles: &mut Particles<D>, mobile: &[u32]) {
+        self.held.clear();
+        let bounds = self.domain.bounds;
+        let open: [bool; D] = self.domain.periodic.map(|periodic| !periodic);
+        for &i in mobile {
+            let p = &mut particles.position[i as usize];
+            let is_out = (0..D).any(|k| open[k] && !(bounds.min[k]..=bounds.max[k]).contains(&p[k]));
+            if !is_out || particles.kind[i as usize] != Kind::Free {
+                continue;
+            }
+            for k in (0..D).filter(|&k| open[k]) {
+                // A place that is no number is left for the caller to find.
+                if p[k] < bounds.min[k] {
+                    p[k] = bounds.min[k];
+                    self.held.push((i, k, 1.0));
+                } else if p[k] > bounds.max[k] {
+                    p[k] = bounds.max[k];
+                    self.held.push((i, k, -1.0));
+                }
+            }
+        }
+    }
+
+    /// Particles that a side holds: which, across which axis, and the sign of the way into the box.
+    pub(super) fn held(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        self.held.iter().map(|&(i, axis, inward)| (i as usize, axis, inward))
+    }
+}
