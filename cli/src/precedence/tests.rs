@@ -129,8 +129,8 @@ fn volumes_add_up_at_any_depth() {
             // Across a face, over an edge and at a corner; no edges of both meet, which would move the higher one.
             for (y, z) in [
                 (-1.0, -1.3),
-                (4.0 - depth, -1.3),
-                (4.0 - depth, 4.0 - 0.9 * depth),
+                (4.0 - 0.8 * depth, -1.3),
+                (4.0 - 0.8 * depth, 4.0 - 0.9 * depth),
             ] {
                 let higher = solid([4.0 - depth, y, z], [7.0, y + 7.0, z + 7.0], degrees);
                 let both = depth * (4.0 - y.max(0.0)) * (4.0 - z.max(0.0));
