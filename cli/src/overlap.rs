@@ -46,12 +46,22 @@ pub(crate) fn first<const D: usize>(
 }
 
 /// The deepest place found that two bodies claim, and how deep it is, if that is more than a tenth of ∆s.
-pub(crate) fn between<const D: usize>(
+fn between<const D: usize>(
     a: &dyn Surface<D>,
     b: &dyn Surface<D>,
     spacing: f64,
 ) -> Option<([f64; D], f64)> {
-    let slack = TOUCHING_OVER_SPACING * spacing;
+    deeper_than(TOUCHING_OVER_SPACING, a, b, spacing)
+}
+
+/// The deepest place found that two bodies claim, and how deep it is, if that is more than so much, in ∆s.
+pub(crate) fn deeper_than<const D: usize>(
+    depth_over_spacing: f64,
+    a: &dyn Surface<D>,
+    b: &dyn Surface<D>,
+    spacing: f64,
+) -> Option<([f64; D], f64)> {
+    let slack = depth_over_spacing * spacing;
     let common = common(a.bounds(), b.bounds());
     if (0..D).any(|k| common.max[k] - common.min[k] <= slack) {
         return None;
@@ -61,6 +71,12 @@ pub(crate) fn between<const D: usize>(
         .into_iter()
         .flatten()
         .max_by(|p, q| p.1.total_cmp(&q.1))
+}
+
+/// Whether the boxes around two bodies have room in common.
+pub(crate) fn may_overlap<const D: usize>(a: &dyn Surface<D>, b: &dyn Surface<D>) -> bool {
+    let common = common(a.bounds(), b.bounds());
+    (0..D).all(|k| common.max[k] > common.min[k])
 }
 
 fn common<const D: usize>(a: Bounds<D>, b: Bounds<D>) -> Bounds<D> {

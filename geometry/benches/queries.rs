@@ -100,6 +100,14 @@ fn queries(c: &mut Criterion) {
     });
     drop(loose);
     group.bench_function("starfish inset", |b| b.iter(|| outline.inset(0.025)));
+    // Sides much shorter than they are moved.
+    group.bench_function("starfish inset by its arms' width", |b| {
+        b.iter(|| outline.inset(0.17));
+    });
+    let teeth = Outline::zigzag(1.0, 1.0, 0.5, 10_000).expect("a good zigzag");
+    group.bench_function("10,000 teeth inset by 500 of them", |b| {
+        b.iter(|| teeth.inset(0.05));
+    });
     group.finish();
     let mut group = c.benchmark_group("sampling");
     group.throughput(Throughput::Elements(2300));

@@ -14,6 +14,14 @@ pub enum GeometryError {
         /// How far the surface was moved, scene units.
         depth: f64,
     },
+    /// The strips that an outline's sides sweep cross each other too often to be joined.
+    #[error(
+        "the outline is too ragged to be moved by {distance}: what its sides sweep crosses itself too often; leave out detail that is finer than this, or use a smaller spacing, or surface = \"exact\""
+    )]
+    TooTangled {
+        /// How far it was to be moved, scene units.
+        distance: f64,
+    },
     /// A parameter of a shape or of an operation is out of range.
     #[error("{shape}: {name} = {value} does not work; it must be {needs}")]
     BadParameter {

@@ -1,5 +1,5 @@
-//! The project's own tasks: `cargo xtask ci | tidy | fuzz | reproduce-paper | balanced | compare | lattices | speed |
-//! round-trip`.
+//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | reproduce-paper | balanced | compare | lattices |
+//! speed | round-trip`.
 
 mod accelerations;
 mod agitators;
@@ -9,6 +9,7 @@ mod chart;
 mod ci;
 mod compare;
 mod dial;
+mod draw;
 mod figures;
 mod fuzz;
 mod gaps;
@@ -33,6 +34,8 @@ cargo xtask TASK
 
   ci                          everything that a change must pass
   tidy                        house rules: crate graph, file sizes, names, lints
+  draw [--rounds N] [--seed N]
+                              property tests on new cases, a hundred times as many as cargo test
   fuzz [--inputs N] [--seed N] [--only stl|obj|ply|csv|dat|svg]
                               damaged files (a million) for every reader of bodies
   reproduce-paper [--quick] [--only SCENE] [--data DIR] [--write]
@@ -64,6 +67,7 @@ fn main() -> ExitCode {
     let result = match arguments.first().map(String::as_str) {
         Some("ci") => ci::run(),
         Some("tidy") => tidy::run(&root()),
+        Some("draw") => draw::Settings::parse(rest).and_then(draw::run),
         Some("fuzz") => fuzz::Settings::parse(rest).and_then(|s| fuzz::run(&s)),
         Some("reproduce-paper") => {
             reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))

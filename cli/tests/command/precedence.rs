@@ -246,6 +246,47 @@ fn shapes_by_formula_are_cut_by_level_sets() {
 }
 
 #[test]
+fn shallow_overlaps_are_cut_too() {
+    let block = body(
+        "block",
+        "box = { min = [-3.0, -1.0], max = [-0.991, 1.0] }",
+        "",
+    );
+    let cube = |min: f64, more: &str| {
+        let shape = format!("box = {{ min = [{min:?}, 0.0, 0.0], max = [1.6, 1.0, 1.0] }}");
+        body("cube", &shape, more)
+    };
+    let desk = Desk::new()
+        .with(
+            "plane.toml",
+            scene(0.1, &[block, body("disc", DISC, "precedence = 1")]),
+        )
+        .with(
+            "space.toml",
+            scene(
+                0.1,
+                &[
+                    body(
+                        "low",
+                        "box = { min = [0.0, 0.0, 0.0], max = [1.0, 1.0, 1.0] }",
+                        "",
+                    ),
+                    cube(0.991, "precedence = 1"),
+                ],
+            ),
+        );
+    // By 0.09 ∆s: the cap of the disc beyond x = −0.991.
+    let half = 0.991_f64.acos();
+    let cap = half - half.sin() * half.cos();
+    check(
+        &volumes(&desk, "plane.toml"),
+        &[2.009 * 2.0 - cap, PI],
+        2e-6,
+    );
+    check(&volumes(&desk, "space.toml"), &[0.991, 0.609], 1e-9);
+}
+
+#[test]
 fn what_is_refused() {
     let desk = Desk::new()
         .with(

@@ -5,12 +5,12 @@ use i_overlay::core::overlay_rule::OverlayRule;
 
 use sphpack_neighbors::{Bounds, point};
 
-use super::{Outline, engine, offset};
+use super::{Outline, engine, offset, winding_number};
 use crate::segment::signed_area;
 
 /// Pieces and holes that are thinner on average than this, in parts of the outline's size, are left out: they come of
 /// curves that run along each other and are sampled at different points.
-pub(crate) const SLIVER: f64 = 1e-6;
+const SLIVER: f64 = 1e-6;
 
 impl Outline {
     /// What is left of the body where `other` has all its room, O(n log n) for n points of both; `None` where nothing
@@ -47,6 +47,27 @@ impl Outline {
     /// ```
     pub fn union(&self, other: &Self) -> Option<Self> {
         self.with(other, OverlayRule::Union)
+    }
+
+    /// The body without its pieces of less than `area` (scene units squared, holes not counted as theirs); `None` where
+    /// none is left. O(n) for each piece that is left out.
+    pub fn without_crumbs(&self, area: f64) -> Option<Self> {
+        let is_small = |points: &&[[f64; 2]]| (0.0..area).contains(&signed_area(points));
+        let small: Vec<&[[f64; 2]]> = self.loops().filter(is_small).collect();
+        if small.is_empty() {
+            return Some(self.clone());
+        }
+        // A hole goes with its piece: their loops may meet in points, so the middle of a side tells.
+        let within = |points: &[[f64; 2]], hole: &[[f64; 2]]| {
+            let middle = point::scale(point::add(hole[0], hole[1]), 0.5);
+            winding_number(points, middle) != 0
+        };
+        let left: Vec<Vec<[f64; 2]>> = self
+            .loops()
+            .filter(|points| !is_small(points) && !small.iter().any(|piece| within(piece, points)))
+            .map(<[_]>::to_vec)
+            .collect();
+        (!left.is_empty()).then(|| Self::assemble(left))
     }
 
     fn with(&self, other: &Self, rule: OverlayRule) -> Option<Self> {
@@ -115,13 +136,22 @@ pub(crate) fn resolved(loops: &[Vec<[f64; 2]>], filled: Filled) -> Vec<Vec<[f64;
     without_slivers(shapes, size)
 }
 
-/// The area of what both sets of loops bound, each as [`resolved`] gives them.
-pub(crate) fn shared_area(one: &[Vec<[f64; 2]>], other: &[Vec<[f64; 2]>]) -> f64 {
-    engine::overlay(one, other, OverlayRule::Intersect, FillRule::NonZero)
-        .iter()
-        .flatten()
-        .map(|points| signed_area(points))
-        .sum()
+/// Whether both sets of loops, each as [`resolved`] gives them, have room in common: a piece of it, at least, that is not
+/// thin, as [`Outline::intersection`] measures it, in parts of `size`.
+pub(crate) fn have_common_room(one: &Loops, other: &Loops, size: f64) -> bool {
+    leave(one, other, OverlayRule::Intersect, size)
+}
+
+/// Whether the first set of loops has room that the other has not, measured as by [`have_common_room`].
+pub(crate) fn has_own_room(one: &Loops, other: &Loops, size: f64) -> bool {
+    leave(one, other, OverlayRule::Difference, size)
+}
+
+type Loops = [Vec<[f64; 2]>];
+
+fn leave(one: &Loops, other: &Loops, rule: OverlayRule, size: f64) -> bool {
+    let shapes = engine::overlay(one, other, rule, FillRule::NonZero);
+    !without_slivers(shapes, size).is_empty()
 }
 
 /// The length of a loop.
@@ -175,6 +205,22 @@ mod tests {
         let corners = check(&unit, &diamond, 4, 0.5, 1e-14);
         assert!(corners.inside([0.1, 0.1]) && !corners.inside([0.5, 0.5]));
         assert!(corners.inset(0.02).unwrap().volume() < 0.5);
+    }
+
+    #[test]
+    fn crumbs() {
+        let frame = rectangle([0.0; 2], [1.0; 2]).minus(&rectangle([0.1; 2], [0.9; 2]));
+        let far = rectangle([3.0, 0.0], [4.0, 0.01]);
+        let both = frame.unwrap().union(&far).unwrap();
+        let loops = |area: f64| {
+            both.without_crumbs(area)
+                .map(|o| (o.loops().len(), o.volume()))
+        };
+        assert_eq!(loops(0.005), Some((3, both.volume())));
+        assert!(loops(0.02).is_some_and(|(n, area)| n == 2 && (area - 0.36).abs() < 1e-12));
+        // The frame's outer loop is measured, and its hole goes with it.
+        assert_eq!(loops(0.999).map(|l| l.0), Some(2));
+        assert!(loops(2.0).is_none());
     }
 
     #[test]

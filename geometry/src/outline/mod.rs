@@ -7,6 +7,7 @@ mod inside;
 mod offset;
 mod shapes;
 mod surface;
+mod swept;
 #[cfg(test)]
 mod tests;
 

@@ -1,9 +1,8 @@
 //! Outlines moved inward or outward, with their corners resolved.
 //!
 //! Every side sweeps a strip as it moves. What is left of the body inside (or what it grows to outside) is the body
-//! minus (plus) all strips and the wedges between neighbours that move apart. The raw offset below winds around each
-//! place as often as body and strips together do, so the result is where its winding number is positive; an overlay
-//! engine finds that.
+//! minus (plus) all strips and the wedges between neighbours that move apart. Where no strip is shorter than it must
+//! be and the moved sides do not meet, they bound that already; else all that is swept is joined first.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -23,7 +22,8 @@ pub(super) const MERGE: f64 = 1e-11;
 const CRUMB: f64 = 1e-6;
 
 impl Outline {
-    /// The outline moved outward by `distance` (inward where negative), scene units, O(n log n).
+    /// The outline moved outward by `distance` (inward where negative), scene units, O(n log n) for any ratio of the
+    /// distance to the sides' lengths.
     ///
     /// Where sides approach each other (convex corners inward, reflex ones outward) the corner is their exact
     /// intersection. Where they part it is mitred up to [`MITRE_LIMIT`] × the distance and bevelled beyond.
@@ -31,7 +31,7 @@ impl Outline {
     ///
     /// # Errors
     /// [`GeometryError::Vanished`] where nothing is left, [`GeometryError::BadParameter`] where `distance` is not
-    /// finite.
+    /// finite, [`GeometryError::TooTangled`] where what the sides sweep would have 64 times the outline's points.
     pub fn offset(&self, distance: f64) -> Result<Self, GeometryError> {
         GeometryError::check_finite("offset", "distance", [distance])?;
         if distance == 0.0 {
@@ -67,7 +67,8 @@ impl Outline {
         }
         let merge = MERGE * self.extent();
         let crumb = CRUMB * distance * distance;
-        let loops: Vec<Vec<[f64; 2]>> = positive(&raw)
+        let rest = self.cut_or_grown(distance)?;
+        let loops: Vec<Vec<[f64; 2]>> = rest
             .into_iter()
             .map(|points| tidy(points, merge))
             .filter(|points| points.len() >= 3 && signed_area(points).abs() > crumb)
@@ -78,60 +79,95 @@ impl Outline {
         Ok(Self::from_clean(loops))
     }
 
+    /// The loops of the body without what its sides sweep inward, or with what they sweep outward.
+    fn cut_or_grown(&self, distance: f64) -> Result<Vec<Vec<[f64; 2]>>, GeometryError> {
+        let rule = if distance < 0.0 {
+            OverlayRule::Difference
+        } else {
+            OverlayRule::Union
+        };
+        let loops: Vec<Vec<[f64; 2]>> = self.loops().map(<[_]>::to_vec).collect();
+        let swept = self.swept(distance)?;
+        let left = engine::overlay(&loops, &swept, rule, FillRule::NonZero);
+        Ok(left.into_iter().flatten().collect())
+    }
+
     /// The raw offset of the loop `start..end`, and whether every side keeps its direction.
     fn moved(&self, start: usize, end: usize, distance: f64) -> (Vec<[f64; 2]>, bool) {
         let mut out = Vec::with_capacity(end - start);
         let mut all_mitred = true;
         for i in start..end {
             let before = if i > start { i - 1 } else { end - 1 };
-            let (into, out_of) = (&self.sides[before], &self.sides[i]);
-            let vertex = self.points[i];
-            let (sin, cos) = (
-                cross(into.normal, out_of.normal),
-                point::dot(into.normal, out_of.normal),
-            );
-            // |m| = 1 / cos(turn/2), along the bisector.
-            let mitre = point::scale(
-                point::add(into.normal, out_of.normal),
-                1.0 / (1.0 + cos).max(f64::MIN_POSITIVE),
-            );
-            let straight = |out: &mut Vec<[f64; 2]>, through: bool| {
-                out.push(point::add_scaled(vertex, distance, into.normal));
-                if through {
-                    out.push(vertex);
-                }
-                out.push(point::add_scaled(vertex, distance, out_of.normal));
-            };
-            let mitred = point::add_scaled(vertex, distance, mitre);
-            if sin * distance > 0.0 || (sin == 0.0 && cos < 0.0) {
-                // The sides part.
-                if 2.0 <= MITRE_LIMIT * MITRE_LIMIT * (1.0 + cos) {
-                    out.push(mitred);
-                } else {
-                    straight(&mut out, false);
-                    all_mitred = false;
-                }
-            } else {
-                // They approach: each loses |distance| tan(turn/2) of its length here.
-                let loss = distance.abs() * sin.abs() / (1.0 + cos).max(f64::MIN_POSITIVE);
-                if loss <= 0.5 * into.length().min(out_of.length()) {
-                    out.push(mitred);
-                } else {
-                    straight(&mut out, true);
-                    all_mitred = false;
-                }
-            }
+            let turn = self.turn([before, i], distance);
+            all_mitred &= matches!(turn, Turn::Mitred(_));
+            out.extend_from_slice(turn.path(self.points[i]).as_slice());
         }
         (out, all_mitred)
     }
+
+    /// What the outline's corner at the end of the first side and the start of the second becomes.
+    pub(super) fn turn(&self, [before, i]: [usize; 2], distance: f64) -> Turn {
+        let (into, out_of) = (&self.sides[before], &self.sides[i]);
+        let vertex = self.points[i];
+        let (sin, cos) = (
+            cross(into.normal, out_of.normal),
+            point::dot(into.normal, out_of.normal),
+        );
+        // |m| = 1 / cos(turn/2), along the bisector.
+        let mitre = point::scale(
+            point::add(into.normal, out_of.normal),
+            1.0 / (1.0 + cos).max(f64::MIN_POSITIVE),
+        );
+        let mitred = Turn::Mitred(point::add_scaled(vertex, distance, mitre));
+        let ends = [into, out_of].map(|side| point::add_scaled(vertex, distance, side.normal));
+        if sin * distance > 0.0 || (sin == 0.0 && cos < 0.0) {
+            // The sides part.
+            if 2.0 <= MITRE_LIMIT * MITRE_LIMIT * (1.0 + cos) {
+                mitred
+            } else {
+                Turn::Bevelled(ends)
+            }
+        } else {
+            // They approach: each loses |distance| tan(turn/2) of its length here.
+            let loss = distance.abs() * sin.abs() / (1.0 + cos).max(f64::MIN_POSITIVE);
+            if loss <= 0.5 * into.length().min(out_of.length()) {
+                mitred
+            } else {
+                Turn::Crossed(ends)
+            }
+        }
+    }
 }
 
-/// The boundary of where the loops wind around a positive number of times.
-fn positive(loops: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
-    engine::overlay(loops, &[], OverlayRule::Subject, FillRule::Positive)
-        .into_iter()
-        .flatten()
-        .collect()
+/// What becomes of a corner when the sides beside it are moved.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Turn {
+    /// The moved sides meet here.
+    Mitred([f64; 2]),
+    /// The sides part too far: the end of the one before and the start of the one after.
+    Bevelled([[f64; 2]; 2]),
+    /// The sides approach and are too short to meet: both ends, beyond each other.
+    Crossed([[f64; 2]; 2]),
+}
+
+impl Turn {
+    /// The raw offset's way round the corner at `vertex`.
+    pub(super) fn path(self, vertex: [f64; 2]) -> Path {
+        match self {
+            Self::Mitred(p) => Path([p; 3], 1),
+            Self::Bevelled([a, b]) => Path([a, b, b], 2),
+            Self::Crossed([a, b]) => Path([a, vertex, b], 3),
+        }
+    }
+}
+
+/// One to three points.
+pub(super) struct Path([[f64; 2]; 3], usize);
+
+impl Path {
+    pub(super) fn as_slice(&self) -> &[[f64; 2]] {
+        &self.0[..self.1]
+    }
 }
 
 /// Without points that repeat their neighbours or lie on the line between them.

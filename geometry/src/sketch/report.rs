@@ -12,7 +12,9 @@ use crate::soup::four_digits;
 pub enum OutlineDefectKind {
     /// Pairs of sides of one loop that cross.
     SelfIntersection,
-    /// Pairs of loops that overlap: each has room that the other has too.
+    /// Pairs of loops that overlap: each has room that the other has too, and room of its own, in pieces that are thicker
+    /// on average (twice the area over the length around) than 10⁻⁶ of the diagonal of the box around both. Loops that
+    /// meet and have less in common touch.
     Overlap,
     /// Loops that are there more than once, whichever way round.
     Duplicate,

@@ -1,0 +1,174 @@
+//! What is left and what both claimed make up the body, at any depth.
+
+use std::f64::consts::TAU;
+
+use proptest::prelude::*;
+use sphpack_geometry::{Ball, Similarity};
+
+use super::*;
+
+type Points = Vec<[f64; 2]>;
+
+const SPACING: f64 = 1.0;
+
+/// The part of a convex polygon to the left of every side of another: both counter-clockwise.
+fn clipped(mut points: Points, by: &[[f64; 2]]) -> Points {
+    for (k, &a) in by.iter().enumerate() {
+        let b = by[(k + 1) % by.len()];
+        let height = |p: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+        let mut kept = Vec::new();
+        for (i, &p) in points.iter().enumerate() {
+            let q = points[(i + 1) % points.len()];
+            let (from, to) = (height(p), height(q));
+            if from >= 0.0 {
+                kept.push(p);
+            }
+            if (from >= 0.0) != (to >= 0.0) {
+                let t = from / (from - to);
+                kept.push([p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])]);
+            }
+        }
+        points = kept;
+    }
+    points
+}
+
+fn area(points: &[[f64; 2]]) -> f64 {
+    let mut twice = 0.0;
+    for (i, p) in points.iter().enumerate() {
+        let q = points[(i + 1) % points.len()];
+        twice += p[0] * q[1] - p[1] * q[0];
+    }
+    0.5 * twice
+}
+
+/// A disc, a regular polygon, a box or a needle about the origin, counter-clockwise.
+fn convex() -> impl Strategy<Value = Points> {
+    let regular = |n: usize, r: f64| -> Points {
+        let at = |k: usize| (TAU * k as f64 / n as f64).sin_cos();
+        (0..n).map(at).map(|(s, c)| [r * c, r * s]).collect()
+    };
+    prop_oneof![
+        (3..12_usize, 1.0..4.0).prop_map(move |(n, r)| regular(n, r)),
+        (1.0..4.0).prop_map(move |r| regular(500, r)),
+        (0.5..4.0, 0.5..4.0).prop_map(|(x, y): (f64, f64)| vec![
+            [-x, -y],
+            [x, -y],
+            [x, y],
+            [-x, y]
+        ]),
+        (-5.0..-1.0).prop_map(|width| {
+            let half = 10.0_f64.powf(width);
+            vec![[-5.0, 0.0], [5.0, -half], [5.0, half]]
+        }),
+    ]
+}
+
+/// From 10⁻⁶ to 0.2 ∆s.
+fn depth() -> impl Strategy<Value = f64> {
+    (-6.0..-0.7).prop_map(|power| SPACING * 10.0_f64.powf(power))
+}
+
+fn outline(points: &[[f64; 2]]) -> Outline {
+    Outline::polygon(points).expect("a convex polygon")
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn areas_add_up_at_any_depth(
+        (a, b) in (convex(), convex()), turns in (0.0..360.0, 0.0..360.0), depth in depth(), through in any::<bool>(),
+    ) {
+        let turned = |points: &Points, degrees, shift| {
+            let by = Similarity::<2>::new(1.0, degrees, shift).expect("a turn");
+            points.iter().map(|&p| by.point(p)).collect::<Points>()
+        };
+        let a = turned(&a, turns.0, [0.0; 2]);
+        let b = turned(&b, turns.1, [0.0; 2]);
+        // Through the middle, or so that the boxes overlap by the depth along x.
+        let ends = |points: &Points, of: fn(f64, f64) -> f64| points.iter().map(|p| p[0]).reduce(of).unwrap_or(0.0);
+        let x = if through { depth } else { ends(&a, f64::max) - ends(&b, f64::min) - depth };
+        let b = turned(&b, 0.0, [x, 0.0]);
+        let (lower, higher) = (outline(&a), outline(&b));
+        let both = area(&clipped(a.clone(), &b));
+        // What is thinner than 10⁻⁶ of the body need not be told apart.
+        let bounds = lower.bounds();
+        let least = 1e-6 * bounds.diagonal() * lower.measure();
+        let exact = area(&a) - both;
+        let left = Space::<2>::minus(&lower, &higher, SPACING).expect("in the plane all is cut");
+        let (volume, pieces) = match &left {
+            Left::All => (lower.volume(), 1),
+            Left::Part(left) => (left.volume(), left.loops().len()),
+            Left::Nothing => (0.0, 0),
+        };
+        // Crumbs are dropped; each such cut of these leaves at most so many.
+        let dropped = exact - volume;
+        prop_assert!(dropped > -least, "{} too much", -dropped);
+        prop_assert!(dropped < least + 12.0 * CRUMB * SPACING * SPACING, "{} missing", dropped);
+        let whole = lower.minus(&higher).map_or(0.0, |left| left.volume());
+        prop_assert!((whole - exact).abs() < least, "{} off, {} pieces", whole - exact, pieces);
+        if both == 0.0 {
+            prop_assert!(matches!(left, Left::All));
+        }
+    }
+}
+
+fn solid(min: [f64; 3], max: [f64; 3], degrees: f64) -> Solid {
+    let turn = Similarity::<3>::new(1.0, [0.3, -0.5, 0.8], degrees, [0.0; 3]).expect("a turn");
+    let ends = [min, max];
+    let corner = |bits: usize| turn.point(std::array::from_fn(|k| ends[bits >> k & 1][k]));
+    Solid::Mesh(Arc::new(hexahedron(corner).expect("a box")))
+}
+
+#[test]
+fn volumes_add_up_at_any_depth() {
+    for degrees in [0.0, 33.0, 71.0] {
+        let lower = solid([0.0; 3], [4.0; 3], degrees);
+        for depth in [1e-5, 1e-4, 1e-3, 0.01, 0.05, 0.099, 0.2] {
+            // Across a face, over an edge and at a corner; no edges of both meet, which would move the higher one.
+            for (y, z) in [
+                (-1.0, -1.3),
+                (4.0 - 0.8 * depth, -1.3),
+                (4.0 - 0.8 * depth, 4.0 - 0.9 * depth),
+            ] {
+                let higher = solid([4.0 - depth, y, z], [7.0, y + 7.0, z + 7.0], degrees);
+                let both = depth * (4.0 - y.max(0.0)) * (4.0 - z.max(0.0));
+                let left = Space::<3>::minus(&lower, &higher, SPACING).expect("it is cut");
+                let volume = match left {
+                    Left::All => 64.0,
+                    Left::Part(left) => left.volume(),
+                    Left::Nothing => 0.0,
+                };
+                let off = volume + both - 64.0;
+                // An edge or a corner of little room may be missed.
+                assert!(
+                    off.abs() < 1e-8 || (both < 7e-3 && off < 1.001 * both),
+                    "{depth} {y} {z}: {off}"
+                );
+            }
+        }
+        // What touches stays as it is.
+        for higher in [
+            solid([4.0, -1.0, -1.0], [7.0; 3], degrees),
+            solid([4.0; 3], [7.0; 3], degrees),
+        ] {
+            assert!(matches!(
+                Space::<3>::minus(&lower, &higher, SPACING),
+                Ok(Left::All)
+            ));
+        }
+    }
+    let ball = |x: f64| {
+        let ball = Ball::new([x, 0.0, 0.0], 2.0).expect("a ball");
+        Solid::Smooth(Arc::new(ball) as Arc<dyn Surface<3>>)
+    };
+    assert!(matches!(
+        Space::<3>::minus(&ball(0.0), &ball(4.0), SPACING),
+        Ok(Left::All)
+    ));
+    assert!(matches!(
+        Space::<3>::minus(&ball(0.0), &ball(3.9), SPACING),
+        Ok(Left::Part(_))
+    ));
+}
