@@ -1,5 +1,7 @@
 //! What a packing must be before anyone is told that it is done.
 
+mod anyone;
+
 use serde::Serialize;
 use sphpack_neighbors::point;
 use sphpack_packing::closest_pair::CROWDED;
@@ -169,9 +171,10 @@ impl Audit {
             self.volume_error = self.volume_error.max(off / asked.max(site));
             if off > (VOLUME_WITHIN * asked).max(0.5 * site) * (1.0 + 1e-9) {
                 let message = format!(
-                    "the particles of body \"{}\" have {:+.2} % of its volume too much ({has:.4} for {asked:.4})",
+                    "the particles of body \"{}\" have a volume of {has:.4e}, {:.2} % {} than its {asked:.4e}",
                     body.name,
-                    100.0 * (has - asked) / asked
+                    100.0 * off / asked.abs(),
+                    if has > asked { "more" } else { "less" }
                 );
                 self.found(message, Some(body.surface.bounds().center()));
             }
@@ -189,8 +192,9 @@ impl Audit {
             self.volume_error = self.volume_error.max(off.abs() / whole);
             if off.abs() > slack {
                 let message = format!(
-                    "all particles together have {:+.3e} of the box's volume too much",
-                    off / whole
+                    "all particles together have a volume that is {:.1e} of the box's too {}",
+                    off.abs() / whole,
+                    if off > 0.0 { "large" } else { "small" }
                 );
                 self.found::<D>(message, None);
             }
@@ -321,3 +325,6 @@ fn cure(scene: &Scene) -> String {
         "places thinner or narrower than two spacings are the likely cause; a smaller spacing there, more room around the bodies, or a plainer body will do".to_owned()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -23,6 +23,10 @@ pub struct Cloud {
     pub volume: Vec<f64>,
     /// How each may move; free where the file does not say.
     pub kind: Vec<Kind>,
+    /// Numbers that stay with the particles, where the file has them.
+    pub id: Option<Vec<f64>>,
+    /// Γ as the file says, where it does.
+    pub gamma: Option<Vec<f64>>,
     /// Outward unit normals of boundary particles, where the file has them.
     pub normal: Option<Vec<[f64; 3]>>,
 }
@@ -34,6 +38,8 @@ pub struct CloudQuality {
     pub density: DensityQuality,
     /// h |∇Γ| of the free ones among them.
     pub residual: ResidualQuality,
+    /// The largest difference from the file's own Γ, where it has one.
+    pub gamma_differs: Option<f64>,
     /// How many were measured.
     pub measured: usize,
     /// How many were not, because they are near the edge of a set without frozen particles.
@@ -127,6 +133,8 @@ impl Cloud {
             position,
             volume,
             kind,
+            id: column("id").cloned(),
+            gamma: column("gamma").cloned(),
             normal,
         })
     }
@@ -202,6 +210,11 @@ impl Cloud {
         Ok(CloudQuality {
             density: DensityQuality::of(&gamma, lattice),
             residual: ResidualQuality::of(&free, tangential.fold(0.0, f64::max)),
+            gamma_differs: self.gamma.as_ref().map(|own| {
+                (measured.iter().zip(&gamma))
+                    .map(|(&i, gamma)| (own[i] - gamma).abs())
+                    .fold(0.0, f64::max)
+            }),
             measured: measured.len(),
             left_out: positions.len() - self.frozen_count() - measured.len(),
         })

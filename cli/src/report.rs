@@ -52,6 +52,8 @@ pub struct Report {
     pub surface: Vec<SurfaceReport>,
     /// Each body's content.
     pub bodies: Vec<BodyReport>,
+    /// What a person should know although nothing is wrong, a sentence each.
+    pub warnings: Vec<String>,
     /// Whether it is what it should be.
     pub audit: Audit,
     /// With corrected masses, what that came to.

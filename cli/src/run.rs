@@ -19,7 +19,7 @@ use crate::report::{
     BodyReport, Counts, History, MassReport, Report, SCHEMA, SecondsReport, SurfaceReport, finite,
     peak_memory_bytes,
 };
-use crate::scene::{Masses, Scene};
+use crate::scene::{Masses, Role, Scene};
 use crate::table::Table;
 
 /// What particle files say in place of the reason why settling stopped, where the audit has found something.
@@ -216,6 +216,35 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
     }
 }
 
+/// Solid bodies that get no particles, because they hold less than half of one.
+fn too_small<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Vec<String> {
+    let Solution {
+        problem, labels, ..
+    } = solution;
+    if !scene.packing.method.info().fills_bodies {
+        return Vec::new();
+    }
+    let mut has_some = vec![false; problem.bodies.len()];
+    for body in labels.body.iter().flatten() {
+        has_some[usize::from(*body)] = true;
+    }
+    let site = problem.filling().volume_per_site();
+    (problem.bodies.iter().zip(&scene.body).zip(has_some))
+        .filter(|((_, spec), has_some)| spec.role == Role::Solid && !has_some)
+        .map(|((body, spec), _)| {
+            let at: Vec<String> = (body.surface.bounds().center().iter())
+                .map(|x| format!("{x:.4}"))
+                .collect();
+            format!(
+                "body \"{}\" at ({}) gets no particles: its volume is {:.2} of a particle's; its room is left to what is around it; a smaller spacing would show it",
+                spec.name,
+                at.join(", "),
+                body.surface.volume() / site
+            )
+        })
+        .collect()
+}
+
 fn report<const D: usize>(
     scene: &Scene,
     solution: &Solution<D>,
@@ -275,6 +304,7 @@ fn report<const D: usize>(
         closest_pair_over_spacing: finite(quality.closest_pair_over_spacing),
         surface: quality.surface.iter().map(SurfaceReport::from).collect(),
         bodies,
+        warnings: too_small(scene, solution),
         audit,
         seconds: SecondsReport {
             total: built + seconds.total,

@@ -53,6 +53,9 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
         for body in &outcome.report.bodies {
             warn(&body.name, &body.repairs);
         }
+        for words in &outcome.report.warnings {
+            let _ = writeln!(std::io::stderr(), "sphpack: warning: {words}");
+        }
     }
     let written = files.write(&scene, &mut outcome, arguments.force, begin)?;
     if !arguments.quiet {

@@ -5,8 +5,9 @@ use serde::Serialize;
 use super::arguments::QualityArguments;
 use super::say;
 use crate::Error;
+use crate::audit::Audit;
 use crate::cloud::{Cloud, CloudQuality};
-use crate::error::DONE;
+use crate::error::{DONE, NOT_CONVERGED};
 use crate::picture::grouped;
 use crate::report::{Density, Residual};
 use crate::scene::kernel_by_name;
@@ -21,6 +22,7 @@ struct Answer<'a> {
     particles: Numbers,
     density: Density,
     residual: Residual,
+    audit: Audit,
 }
 
 #[derive(Debug, Serialize)]
@@ -46,11 +48,13 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
         .map_err(|message| Error::Usage(format!("--kernel: {message}")))?;
     let cloud = Cloud::read(&arguments.particles, arguments.spacing)?;
     let measured = cloud.measure(arguments.spacing, kernel, arguments.h_over_spacing)?;
+    let audit = Audit::of_cloud(&cloud, arguments.spacing, &measured);
     let CloudQuality {
         density,
         residual,
         measured,
         left_out,
+        ..
     } = measured;
     let answer = Answer {
         dimension: cloud.dimension,
@@ -65,6 +69,7 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
         },
         density: density.into(),
         residual: residual.into(),
+        audit,
     };
     if arguments.json {
         let text = serde_json::to_string_pretty(&answer)
@@ -73,7 +78,11 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
     } else {
         say(&words(&answer));
     }
-    Ok(DONE)
+    Ok(if answer.audit.passed {
+        DONE
+    } else {
+        NOT_CONVERGED
+    })
 }
 
 fn words(answer: &Answer<'_>) -> String {
@@ -81,8 +90,13 @@ fn words(answer: &Answer<'_>) -> String {
         particles,
         density,
         residual,
+        audit,
         ..
     } = answer;
+    let mut found = if audit.passed { "passed" } else { "FAILED" }.to_owned();
+    for words in &audit.messages {
+        found += &format!("\n             {words}");
+    }
     let left_out = if particles.left_out_near_edge > 0 {
         format!(
             "\n             {} within a support radius of the box's edge are left out (no row is frozen)",
@@ -92,7 +106,7 @@ fn words(answer: &Answer<'_>) -> String {
         String::new()
     };
     format!(
-        "  particles  {} in {}-D, {} frozen, {} measured{left_out}\n  kernel     {}, h/∆s = {}\n  density    Γ from {:.5} to {:.5}, max |Γ − 1| = {:.3} %, RMS {:.3} % (perfect lattice: {:.5})\n  residual   h |Σ V ∇W| at most {:.2e}, RMS {:.2e}, mean {:.2e}\n",
+        "  particles  {} in {}-D, {} frozen, {} measured{left_out}\n  kernel     {}, h/∆s = {}\n  density    Γ from {:.5} to {:.5}, max |Γ − 1| = {:.3} %, RMS {:.3} % (perfect lattice: {:.5})\n  residual   h |Σ V ∇W| at most {:.2e}, RMS {:.2e}, mean {:.2e}\n  audit      closest pair {:.3} ∆s; {found}\n",
         grouped(particles.total),
         answer.dimension,
         grouped(particles.frozen),
@@ -107,5 +121,6 @@ fn words(answer: &Answer<'_>) -> String {
         residual.max,
         residual.rms,
         residual.mean,
+        audit.closest_pair_over_spacing,
     )
 }
