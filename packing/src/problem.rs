@@ -111,6 +111,18 @@ pub enum PackingError {
         /// Upper corner of its box.
         body_max: Vec<f64>,
     },
+    /// A body's surface is folded more finely than a spacing.
+    #[error("the surface of body \"{body}\" is folded more finely than a spacing: for its length or area of {measure:.4} there is room for {room:.4} at {spacing}; use a spacing below {:.1e}, or a plainer body", .spacing * .room / .measure)]
+    TooFolded {
+        /// The body's name.
+        body: String,
+        /// Its length (2-D) or area.
+        measure: f64,
+        /// The most that the box around it has room for.
+        room: f64,
+        /// ∆s.
+        spacing: f64,
+    },
     /// A periodic axis is too short for the kernel.
     #[error(
         "axis {axis} is periodic but only {size} long, less than twice the reach {reach} of the kernel; make it longer, or the spacing smaller"
@@ -336,6 +348,22 @@ impl<const D: usize> Problem<D> {
                     body_max: bounds.max.to_vec(),
                 });
             }
+            // Twice the volume over ∆s has surfaces ∆s apart all over the box; a flat body has the box's two sides.
+            let size = bounds.size();
+            let sides: f64 = 2.0
+                * (0..D)
+                    .map(|k| (0..D).filter(|&a| a != k).map(|a| size[a]).product::<f64>())
+                    .sum::<f64>();
+            let room = FOLDED * (sides + bounds.volume() / self.spacing);
+            let measure = body.surface.measure();
+            if measure > room {
+                return Err(PackingError::TooFolded {
+                    body: body.name.clone(),
+                    measure,
+                    room,
+                    spacing: self.spacing,
+                });
+            }
             if !(body.inset_over_spacing >= 0.0 && body.inset_over_spacing.is_finite()) {
                 return Err(PackingError::NotPositive {
                     name: "the inset of a surface",
@@ -382,6 +410,11 @@ impl<const D: usize> Problem<D> {
         })
     }
 }
+
+/// A surface larger than so many times the sides of the box around the body and its volume over ∆s is folded more finely
+/// than particles can follow. What samples it takes time and memory by its size: a zigzag of 10,000 teeth in the room of 150
+/// particles took minutes and gigabytes.
+const FOLDED: f64 = 4.0;
 
 /// Bytes of a particle as it is kept; of one that is seen, in list and slots; of one that moves, in the minimiser's
 /// history; of one when all are measured and written.
