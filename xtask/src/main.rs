@@ -21,6 +21,7 @@ mod reproduce;
 mod rest;
 mod round_trip;
 mod rows;
+mod scene_fuzz;
 mod sections;
 mod speed;
 mod tidy;
@@ -35,6 +36,10 @@ cargo xtask TASK
   tidy                        house rules: crate graph, file sizes, names, lints
   fuzz [--inputs N] [--seed N] [--only stl|obj|ply|csv|dat|svg]
                               damaged files (a million) for every reader of bodies
+  fuzz --scenes N [--seed N] [--number N] [--write]
+                              random scenes, packed by the command and judged by brute force;
+                              --number runs and shows one of them alone,
+                              --write also writes docs/reliability.md
   reproduce-paper [--quick] [--only SCENE] [--data DIR] [--write]
                               the figures of paper 001, published beside ours;
                               --quick leaves out the long runs,
@@ -64,6 +69,9 @@ fn main() -> ExitCode {
     let result = match arguments.first().map(String::as_str) {
         Some("ci") => ci::run(),
         Some("tidy") => tidy::run(&root()),
+        Some("fuzz") if rest.iter().any(|word| word == "--scenes") => {
+            scene_fuzz::Settings::parse(rest).and_then(|s| scene_fuzz::run(&s))
+        }
         Some("fuzz") => fuzz::Settings::parse(rest).and_then(|s| fuzz::run(&s)),
         Some("reproduce-paper") => {
             reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))
