@@ -3,18 +3,15 @@
 use super::case::{Body, Case, Sides};
 use super::shape::Shape;
 
-/// Packings that one shrinking may take.
-const MOST_TRIALS: usize = 40;
-
-/// Shrinks a scene, not placed, as long as it still `fails`.
-pub(super) fn shrink(case: &Case, mut fails: impl FnMut(&Case) -> bool) -> Case {
+/// Shrinks a scene, not placed, as long as it still `fails`; asks at most so many times.
+pub(super) fn shrink(case: &Case, most: usize, mut fails: impl FnMut(&Case) -> bool) -> Case {
     let mut best = case.clone();
     let mut trials = 0;
     let mut is_better = true;
     while is_better {
         is_better = false;
         for next in simpler(&best) {
-            if trials == MOST_TRIALS {
+            if trials == most {
                 return best;
             }
             trials += 1;
@@ -180,7 +177,7 @@ mod tests {
             if !case.periodic.contains(&true) {
                 continue;
             }
-            let small = shrink(&case, |next| next.periodic.contains(&true));
+            let small = shrink(&case, 40, |next| next.periodic.contains(&true));
             assert_eq!(small.spacing, 1.0);
             assert!(small.bodies.len() <= 1 && small.kernel.is_none() && small.method.is_none());
             assert!(small.periodic.contains(&true));

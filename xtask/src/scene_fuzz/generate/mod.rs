@@ -170,4 +170,24 @@ mod tests {
         }
         assert_ne!(case(7, 1), case(8, 1));
     }
+
+    #[test]
+    fn every_kind_of_scene_comes_up() {
+        let all: Vec<Case> = (0..2000).map(|number| case(0, number)).collect();
+        let share = |is: &dyn Fn(&Case) -> bool| {
+            all.iter().filter(|case| is(case)).count() as f64 / all.len() as f64
+        };
+        let default = share(&|case| case.method() == "balanced");
+        assert!((0.58..0.7).contains(&default), "{default}");
+        let plane = share(&|case| case.dimension == 2);
+        assert!((0.55..0.65).contains(&plane), "{plane}");
+        for method in ["hybrid", "standard", "complex", "triangulated"] {
+            let own = share(&|case| case.method() == method);
+            assert!((0.01..0.08).contains(&own), "{method}: {own}");
+        }
+        let periodic = share(&|case| case.periodic.contains(&true));
+        assert!((0.1..0.3).contains(&periodic), "{periodic}");
+        let files = share(&|case| case.bodies.iter().any(|body| body.shape.file().is_some()));
+        assert!((0.1..0.4).contains(&files), "{files}");
+    }
 }

@@ -4,8 +4,8 @@ use super::super::case::Role;
 use super::super::rows::Row;
 use super::{Faults, Scene};
 
-/// How far on the wrong side a particle may be, in ∆s.
-const SLACK: f64 = 0.1;
+/// How far on the wrong side a particle may be, in ∆s, and a little for rounding.
+const SLACK: f64 = 0.1 + 1e-6;
 
 /// Bodies whose surfaces share a layer of particles are nearer to each other than this, in ∆s.
 const SHARE_LAYER: f64 = 1.0;
@@ -152,7 +152,7 @@ fn shares(scene: &Scene<'_>, number: usize) -> bool {
     let near: Vec<&Row> = scene
         .rows
         .iter()
-        .filter(|row| own.distance(row.at).abs() < 1.5 * spacing)
+        .filter(|row| truth.distance(number, row.at).abs() < 1.5 * spacing)
         .collect();
     (truth.bodies.iter().enumerate()).any(|(k, other)| {
         if k == number {
@@ -167,7 +167,7 @@ fn shares(scene: &Scene<'_>, number: usize) -> bool {
         }
         let touches = || {
             near.iter()
-                .any(|row| other.distance(row.at).abs() < 1.5 * spacing)
+                .any(|row| truth.distance(k, row.at).abs() < 1.5 * spacing)
         };
         match other.role {
             Role::Void => touches() || other.distance(middle(own)) < 0.0,

@@ -170,7 +170,7 @@ pub(super) fn judge(case: &Case, trial: &Trial) -> Judgement {
                     max,
                 };
                 if sound {
-                    particles(&scene, &mut faults);
+                    particles(&scene, &mut faults, &mut notes);
                 } else {
                     let mut others = Faults {
                         method: case.method(),
@@ -192,7 +192,7 @@ pub(super) fn judge(case: &Case, trial: &Trial) -> Judgement {
 }
 
 /// Everything about particles that are said to be right.
-fn particles(scene: &Scene<'_>, faults: &mut Faults) {
+fn particles(scene: &Scene<'_>, faults: &mut Faults, notes: &mut Vec<Fault>) {
     box_sides::judge(scene, faults);
     // The others would only say it again, at length.
     let is_lost = faults.all.iter().any(|fault| {
@@ -201,7 +201,7 @@ fn particles(scene: &Scene<'_>, faults: &mut Faults) {
             .any(|word| fault.class.starts_with(word))
     });
     closest::judge(scene, faults);
-    sums::volume(scene, faults);
+    sums::volume(scene, faults, notes);
     bodies::judge(scene, faults);
     if !is_lost {
         sums::fields(scene, faults);

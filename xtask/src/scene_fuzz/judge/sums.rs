@@ -1,12 +1,15 @@
 //! Sums over particles: their volumes, Γ and its gradient.
 
-use super::{Faults, Scene};
+use super::{Fault, Faults, Scene};
 
 /// Of relative figures that must be the same but for rounding.
 const SAME: f64 = 1e-9;
 
+/// Methods that take from their papers how much every particle weighs, and do not share out the box.
+const DO_NOT_SHARE: [&str; 3] = ["standard", "ppa", "triangulated"];
+
 /// All volumes together are the box.
-pub(super) fn volume(scene: &Scene<'_>, faults: &mut Faults) {
+pub(super) fn volume(scene: &Scene<'_>, faults: &mut Faults, notes: &mut Vec<Fault>) {
     if scene.leaves_out() {
         return;
     }
@@ -19,7 +22,15 @@ pub(super) fn volume(scene: &Scene<'_>, faults: &mut Faults) {
         } else {
             "sum of volumes"
         };
-        faults.add(class, format!("{:+.3e} of the box's volume", off));
+        let detail = format!("{off:+.3e} of the box's volume");
+        if DO_NOT_SHARE.contains(&scene.case.method()) {
+            notes.push(Fault {
+                class: format!("{class} ({})", scene.case.method()),
+                detail,
+            });
+        } else {
+            faults.add(class, detail);
+        }
     }
 }
 
