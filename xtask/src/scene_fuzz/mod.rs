@@ -150,7 +150,7 @@ impl Bench {
 
     fn work(&self, settings: &Settings, folder: &Path) -> Result<(), String> {
         if let Some(number) = settings.only {
-            return self.show(number);
+            return self.show(number, folder);
         }
         let outcomes = self.outcomes(settings.scenes)?;
         let mut table = table::table(settings.seed, &outcomes);
@@ -159,18 +159,7 @@ impl Bench {
         if picked.is_empty() {
             table.push_str("\nNo failures.\n");
         }
-        let small = self.shrunk(&picked)?;
-        for ((number, class), case) in picked.iter().zip(&small) {
-            let name = format!("{number}-{}", slug(class));
-            let mut kept = case.placed();
-            kept.prefix = format!("{name}-");
-            trial::write(&kept, folder, &format!("{name}.toml"))?;
-            let short: String = kept.toml().chars().take(3000).collect();
-            println!(
-                "── {class}, scene {number}: {}\n{short}",
-                folder.join(format!("{name}.toml")).display()
-            );
-        }
+        self.keep(&picked, folder)?;
         if settings.write {
             table::write(&table)?;
         }
@@ -187,7 +176,7 @@ impl Bench {
     }
 
     /// One scene in full.
-    fn show(&self, number: usize) -> Result<(), String> {
+    fn show(&self, number: usize, folder: &Path) -> Result<(), String> {
         let case = generate::case(self.seed, number as u64);
         println!("{}", case.placed().toml());
         let (trial, judgement) = self.try_out(&case, 0)?;
@@ -195,10 +184,31 @@ impl Bench {
             "{}{}{}\n{judgement:#?}",
             trial.dry.output, trial.pack.output, trial.pack.errors
         );
-        match judgement.verdict {
-            Verdict::Failed(_) => Err(format!("scene {number} is not right")),
-            _ => Ok(()),
+        let faults = judgement.faults().iter();
+        let picked: Vec<_> = faults.map(|fault| (number, fault.class.clone())).collect();
+        self.keep(&picked, folder)?;
+        if picked.is_empty() {
+            Ok(())
+        } else {
+            Err(format!("scene {number} is not right"))
         }
+    }
+
+    /// Shrinks failures, shows them and writes them where they can be looked at.
+    fn keep(&self, picked: &[(usize, String)], folder: &Path) -> Result<(), String> {
+        let small = self.shrunk(picked)?;
+        for ((number, class), case) in picked.iter().zip(&small) {
+            let name = format!("{number}-{}", slug(class));
+            let mut kept = case.placed();
+            kept.prefix = format!("{name}-");
+            trial::write(&kept, folder, &format!("{name}.toml"))?;
+            let short: String = kept.toml().chars().take(3000).collect();
+            println!(
+                "── {class}, scene {number}: {}\n{short}",
+                folder.join(format!("{name}.toml")).display()
+            );
+        }
+        Ok(())
     }
 
     /// All scenes in their order, tried by a few workers.

@@ -2,6 +2,7 @@
 
 use super::super::case::Role;
 use super::super::rows::Row;
+use super::super::truth::True;
 use super::{Faults, Scene};
 
 /// How far on the wrong side a particle may be, in ∆s, and a little for rounding.
@@ -76,30 +77,49 @@ impl Worst {
     }
 }
 
-/// Bodies that claim the same room must be refused.
+/// Bodies that claim the same room must be refused, and solid ones where nothing is to be.
 fn unseen_overlaps(scene: &Scene<'_>, faults: &mut Faults) {
     let truth = scene.truth;
     let spacing = scene.case.spacing;
     for (i, a) in truth.bodies.iter().enumerate() {
-        for b in &truth.bodies[i + 1..] {
-            let both_solid = a.role == Role::Solid && b.role == Role::Solid;
-            let solid_in_void =
-                [(a, b), (b, a)].map(|(a, b)| a.role == Role::Solid && b.role == Role::Void);
-            let is_claim = both_solid && a.precedence == b.precedence;
-            if !is_claim && !solid_in_void.contains(&true) {
-                continue;
+        for (j, b) in truth.bodies.iter().enumerate() {
+            let is_claim = i < j && a.role == b.role && a.precedence == b.precedence;
+            if is_claim && a.role == Role::Solid {
+                // Where particles are is where it matters.
+                let depth = |row: &Row| (-a.distance(row.at)).min(-b.distance(row.at)) / spacing;
+                let deepest = scene.rows.iter().map(depth).fold(0.0, f64::max);
+                if deepest > 0.3 {
+                    faults.add(
+                        "overlap not refused",
+                        format!("{} and {}, {deepest:.3} ∆s deep", a.name, b.name),
+                    );
+                }
             }
-            // Where particles are is where it matters.
-            let depth = |row: &Row| (-a.distance(row.at)).min(-b.distance(row.at)) / spacing;
-            let deepest = scene.rows.iter().map(depth).fold(0.0, f64::max);
-            if is_claim && deepest > 0.3 {
-                faults.add(
-                    "overlap not refused",
-                    format!("{} and {}, {deepest:.3} ∆s deep", a.name, b.name),
-                );
+            if a.role == Role::Solid && b.role == Role::Void && is_within(scene, a, b) {
+                faults.add("solid in a void", format!("{} in {}", a.name, b.name));
             }
         }
     }
+}
+
+/// Whether one body lies wholly in another: all of a few thousand places that it holds.
+fn is_within(scene: &Scene<'_>, body: &True, other: &True) -> bool {
+    let [min, max] = body.bounds();
+    let steps: usize = if scene.case.dimension == 2 { 60 } else { 15 };
+    let mut holds_any = false;
+    for i in 0..steps.pow(scene.case.dimension as u32) {
+        let p = std::array::from_fn(|k| {
+            let cell = i / steps.pow(k as u32) % steps;
+            min[k] + (max[k] - min[k]) * (cell as f64 + 0.5) / steps as f64
+        });
+        if body.distance(p) < 0.0 {
+            holds_any = true;
+            if other.distance(p) > 0.0 {
+                return false;
+            }
+        }
+    }
+    holds_any
 }
 
 /// Each solid body's volume, where no other shares its particles.
@@ -176,7 +196,7 @@ fn shares(scene: &Scene<'_>, number: usize) -> bool {
     })
 }
 
-fn middle(body: &super::super::truth::True) -> [f64; 3] {
+fn middle(body: &True) -> [f64; 3] {
     let [min, max] = body.bounds();
     std::array::from_fn(|k| 0.5 * (min[k] + max[k]))
 }

@@ -230,6 +230,18 @@ fn faults_of_bodies_are_found() {
         },
         "overlap not refused",
     );
+    found(
+        |made| {
+            let mut hole = made.case.bodies[0].clone();
+            hole.shape = Shape::Circle {
+                center: [7.0, 7.0],
+                radius: 3.0,
+            };
+            (hole.role, hole.name) = (Role::Void, "hole".to_owned());
+            made.case.bodies.push(hole);
+        },
+        "solid in a void",
+    );
 }
 
 /// What is found where columns or report lie.
