@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 
 use crate::root;
 use case::Case;
-use judge::{Judgement, Verdict};
+use judge::Judgement;
 use table::Outcome;
 
 /// Scenes at a time.

@@ -163,12 +163,19 @@ fn volumes(scene: &Scene<'_>, faults: &mut Faults) {
     }
 }
 
-/// Whether a body's volume is not its own alone: it lies in a void or with one in it, or touches a body of which one
-/// holds particles on its true surface.
+/// Whether a body's volume is not its own alone: it lies in a void or with one in it, or particles on its true surface
+/// sit on that of another, or on a side of the box, and count for more or less than half.
 fn shares(scene: &Scene<'_>, number: usize) -> bool {
     let truth = scene.truth;
     let spacing = scene.case.spacing;
     let own = &truth.bodies[number];
+    let [low, high] = own.bounds();
+    let is_at_side = scene.axes().any(|axis| {
+        (low[axis] - scene.min[axis]).min(scene.max[axis] - high[axis]) < SHARE_LAYER * spacing
+    });
+    if own.inset < 0.5 && is_at_side {
+        return true;
+    }
     let near: Vec<&Row> = scene
         .rows
         .iter()

@@ -307,6 +307,12 @@ fn faults_of_endings_are_found() {
         judge(&made_well.case, &made_well.trial).verdict,
         Verdict::Refused("body … is # too thin".to_owned())
     );
+    assert_eq!(judge(&made_well.case, &made_well.trial).notes, []);
+    // Nothing at all is wrong with this one.
+    let plain = &mut made_well.case;
+    (plain.kernel, plain.h_over_spacing, plain.periodic) = (None, None, vec![false; 2]);
+    let notes = judge(&made_well.case, &made_well.trial).notes;
+    assert_eq!(notes[0].class, "refused needlessly");
     lie(|made| refused(made, "sphpack: no"), "refusal names nothing");
     lie(|made| refused(made, ""), "refused without a word");
     lie(
