@@ -194,21 +194,21 @@ impl Bench {
         }
     }
 
-    /// Shrinks failures, shows them and writes them where they can be looked at.
+    /// Shrinks failures, and writes and shows each where it can be looked at.
     fn keep(&self, picked: &[(usize, String)], folder: &Path) -> Result<(), String> {
-        let small = self.shrunk(picked)?;
-        for ((number, class), case) in picked.iter().zip(&small) {
+        let done = in_parallel(picked.len(), |place, worker| {
+            let (number, class) = &picked[place];
+            eprintln!("shrinking scene {number}, {class}");
             let name = format!("{number}-{}", slug(class));
-            let mut kept = case.placed();
+            let mut kept = self.shrunk(*number, class, worker).placed();
             kept.prefix = format!("{name}-");
+            let path = folder.join(format!("{name}.toml"));
             trial::write(&kept, folder, &format!("{name}.toml"))?;
             let short: String = kept.toml().chars().take(3000).collect();
-            println!(
-                "── {class}, scene {number}: {}\n{short}",
-                folder.join(format!("{name}.toml")).display()
-            );
-        }
-        Ok(())
+            println!("── {class}, scene {number}: {}\n{short}", path.display());
+            Ok(())
+        });
+        done.map(|_| ())
     }
 
     /// All scenes in their order, tried by a few workers.
@@ -243,24 +243,20 @@ impl Bench {
         })
     }
 
-    /// The smallest scenes that fail alike.
-    fn shrunk(&self, picked: &[(usize, String)]) -> Result<Vec<Case>, String> {
-        in_parallel(picked.len(), |place, worker| {
-            let (number, class) = &picked[place];
-            eprintln!("shrinking scene {number}, {class}");
-            let case = generate::case(self.seed, *number as u64);
-            let is_slow = class.starts_with("too slow") || class.ends_with("hangs");
-            let most = MOST_TRIALS[usize::from(is_slow)];
-            Ok(shrink::shrink(&case, most, |next| {
-                let Ok((_, judgement)) = self.try_out(next, worker) else {
-                    return false;
-                };
-                // The method belongs to the class, unless it does not matter.
-                let plain = class.split(" (").next().unwrap_or_default();
-                judgement.faults().iter().any(|fault| {
-                    fault.class == *class || (next.method.is_none() && fault.class == plain)
-                })
-            }))
+    /// The smallest scene found that fails alike.
+    fn shrunk(&self, number: usize, class: &str, worker: usize) -> Case {
+        let case = generate::case(self.seed, number as u64);
+        let is_slow = class.starts_with("too slow") || class.ends_with("hangs");
+        let most = MOST_TRIALS[usize::from(is_slow)];
+        // The method belongs to the class, unless it does not matter.
+        let plain = class.split(" (").next().unwrap_or_default();
+        shrink::shrink(&case, most, |next| {
+            let Ok((_, judgement)) = self.try_out(next, worker) else {
+                return false;
+            };
+            judgement.faults().iter().any(|fault| {
+                fault.class == class || (next.method.is_none() && fault.class == plain)
+            })
         })
     }
 }
