@@ -22,6 +22,7 @@ mod reproduce;
 mod rest;
 mod round_trip;
 mod rows;
+mod scene_fuzz;
 mod sections;
 mod speed;
 mod tidy;
@@ -38,6 +39,10 @@ cargo xtask TASK
                               property tests on new cases, a hundred times as many as cargo test
   fuzz [--inputs N] [--seed N] [--only stl|obj|ply|csv|dat|svg]
                               damaged files (a million) for every reader of bodies
+  fuzz --scenes N [--seed N] [--number N] [--write]
+                              random scenes, packed by the command and judged by brute force;
+                              --number runs and shows one of them alone,
+                              --write also writes docs/reliability.md
   reproduce-paper [--quick] [--only SCENE] [--data DIR] [--write]
                               the figures of paper 001, published beside ours;
                               --quick leaves out the long runs,
@@ -68,6 +73,9 @@ fn main() -> ExitCode {
         Some("ci") => ci::run(),
         Some("tidy") => tidy::run(&root()),
         Some("draw") => draw::Settings::parse(rest).and_then(draw::run),
+        Some("fuzz") if rest.iter().any(|word| word == "--scenes") => {
+            scene_fuzz::Settings::parse(rest).and_then(|s| scene_fuzz::run(&s))
+        }
         Some("fuzz") => fuzz::Settings::parse(rest).and_then(|s| fuzz::run(&s)),
         Some("reproduce-paper") => {
             reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))

@@ -374,7 +374,10 @@ pub struct Surroundings {
 impl Default for OutputSpec {
     fn default() -> Self {
         Self {
-            include: Kind::ALL.map(|kind| kind.name().to_owned()).to_vec(),
+            include: (Kind::ALL.iter())
+                .filter(|&&kind| kind != Kind::Frozen)
+                .map(|kind| kind.name().to_owned())
+                .collect(),
             surroundings: None,
         }
     }

@@ -1,0 +1,90 @@
+//! How random scenes are packed, judged and written.
+
+use super::super::case::Case;
+use super::super::kernel::Kernel;
+use super::super::random::Random;
+
+/// The method: mostly the default.
+pub(super) fn method(random: &mut Random, dimension: usize) -> Option<&'static str> {
+    if random.chance(0.6) {
+        return None;
+    }
+    let all = [
+        "balanced",
+        "hybrid",
+        "coupled",
+        "agitated",
+        "ppa",
+        "clipped",
+        "relaxation",
+        "complex",
+        "standard",
+        "triangulated",
+    ];
+    // The last two are for the plane only.
+    Some(all[random.below(if dimension == 2 { 10 } else { 8 })])
+}
+
+/// Everything but the method.
+pub(super) fn settle(random: &mut Random, case: &mut Case) {
+    let is_default = case.method() == "balanced";
+    if random.chance(if is_default { 0.4 } else { 0.25 }) {
+        case.kernel = Some(random.pick(&Kernel::ALL));
+        case.h_over_spacing = Some(match random.below(3) {
+            0 => random.pick(&[1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6]),
+            _ => random.between(1.0, 1.6),
+        });
+    } else if random.chance(0.1) {
+        case.h_over_spacing = Some(random.between(1.0, 1.6));
+    }
+    let mut keys = Vec::new();
+    if random.chance(0.25) {
+        let lattices: &[&str] = if case.dimension == 2 {
+            &["auto", "square", "hexagonal"]
+        } else {
+            &["auto", "simple-cubic", "bcc", "fcc", "hcp"]
+        };
+        keys.push(format!("lattice = {:?}", random.pick(lattices)));
+    }
+    if is_default {
+        if random.chance(0.1) {
+            keys.push("finish = \"consistent\"".to_owned());
+        }
+        if random.chance(0.08) {
+            keys.push(format!(
+                "minimiser = {:?}",
+                random.pick(&["lbfgs", "fire", "damped"])
+            ));
+        }
+        if random.chance(0.08) {
+            keys.push("band = \"full\"".to_owned());
+        }
+        if random.chance(0.06) {
+            keys.push(format!(
+                "levelling = {}",
+                random.pick(&["0", "1", "30", "200"])
+            ));
+        }
+    } else {
+        keys.push(format!("max_iterations = {}", random.whole(200, 2000)));
+    }
+    if random.chance(0.12) {
+        keys.push("masses = \"corrected\"".to_owned());
+    }
+    if random.chance(0.06) {
+        keys.push("frozen = \"square\"".to_owned());
+    }
+    if random.chance(0.2) {
+        keys.push(format!("seed = {}", random.below(1 << 40)));
+    }
+    case.packing = keys;
+    if random.chance(0.15) {
+        case.quality = Some((random.pick(&Kernel::ALL), random.between(1.0, 1.6)));
+    }
+    let kinds = ["free", "boundary", "fixed", "frozen"];
+    case.include = match random.below(10) {
+        0 => None,
+        1 => Some(kinds.into_iter().filter(|_| random.chance(0.6)).collect()),
+        _ => Some(kinds.to_vec()),
+    };
+}
