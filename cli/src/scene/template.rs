@@ -67,7 +67,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # h_over_spacing = 1.2
 
 [output]
-# include = ["free", "boundary", "fixed", "frozen"]   # kinds of particles in the files
+# include = ["free", "boundary", "fixed"]   # kinds of particles in the files; "frozen" adds the rim around the box
 # surroundings = { min = [-10.0, -5.0], max = [20.0, 5.0] }
                                  # around the domain the files go on to there, on its lattice
 "#;

@@ -6,9 +6,9 @@ use sphpack_neighbors::{Domain, KdTree, point};
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 
-/// No free particle comes nearer to a surface than this, in ∆s, if it was not nearer before. Those of the first layer
-/// are 0.8 ∆s away.
-const FLOOR: f64 = 0.4;
+/// No free particle comes nearer to a surface than this, in ∆s, if it was not nearer before: from within, and from
+/// outside, where an inset surface is ∆s/2 behind the true one. Those of the first layer are 0.8 ∆s away.
+const FLOOR: [f64; 2] = [0.4, 0.45];
 
 /// A particle this near to its floor, in parts of that, lies on it. Without some room rounding says who does (±10⁻¹⁷ on a
 /// flat face, and on one that bends whoever slides is off by s²/2R), and the reaction of the surface comes and goes in
@@ -90,7 +90,8 @@ impl<const D: usize> Sides<D> {
             bodies.dedup();
             bodies.into_iter().map(move |surface| {
                 let distance = surfaces[usize::from(surface)].surface.closest(p).distance;
-                let floor = (FLOOR * spacing).min(distance.abs());
+                let floor = FLOOR[usize::from(distance > 0.0)];
+                let floor = (floor * spacing).min(distance.abs());
                 Watched {
                     particle: i,
                     surface,
