@@ -280,10 +280,11 @@ impl Files {
         };
         let frozen = (rows.kind.iter().filter(|&&kind| kind == Kind::Frozen)).count();
         for (path, format) in &self.particles {
+            let mut is_compared = true;
             let done = files.write_and_check(
                 path,
                 |to| format.write(&rows, to),
-                |written| compare(&rows, *format, written),
+                |written| compare(&rows, *format, written).map(|done| is_compared = done),
             );
             if let Err(error) = done {
                 let is_first = written.is_empty();
@@ -294,8 +295,13 @@ impl Files {
                     },
                 );
             }
+            let remark = if is_compared {
+                ""
+            } else {
+                ", not read again for want of memory"
+            };
             written.push(format!(
-                "{} ({} particles and {} frozen ones)",
+                "{} ({} particles and {} frozen ones{remark})",
                 shown(path),
                 crate::picture::grouped(rows.len() - frozen),
                 crate::picture::grouped(frozen)

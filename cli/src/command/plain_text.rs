@@ -3,6 +3,9 @@
 /// The most letters of a quoted value that are shown.
 const MOST_QUOTED: usize = 60;
 
+/// The most letters of one word: file systems have no longer names, and a few signs may follow.
+const MOST_WORD: usize = 258;
+
 /// The most letters of a message.
 const MOST: usize = 6000;
 
@@ -37,7 +40,17 @@ pub(super) fn message(text: &str) -> String {
             all += part;
         }
     }
-    visible(&shortened(&all, MOST))
+    let words = all.split_inclusive([' ', '/', '\\']);
+    let word = |word: &str| match word.chars().count() {
+        0..=MOST_WORD => word.to_owned(),
+        // Its end as well, with what follows a name in a sentence.
+        count => {
+            let end: String = word.chars().skip(count - 10).collect();
+            shortened(word, MOST_QUOTED - 10) + &end
+        }
+    };
+    let words: String = words.map(word).collect();
+    visible(&shortened(&words, MOST))
 }
 
 /// The beginning of a long text.
@@ -59,7 +72,8 @@ mod tests {
         let long = "ä".repeat(1000);
         let said = message(&format!("unknown key \"{long}\"; did you mean \"body\"?"));
         assert!(said.contains(&format!("\"{}…\"; did you mean \"body\"?", "ä".repeat(59))));
-        assert_eq!(message(&long.repeat(10)).chars().count(), MOST);
+        assert_eq!(message(&long.repeat(10)).chars().count(), 60);
+        assert_eq!(message(&"so it is ".repeat(1000)).chars().count(), MOST);
         let fits = "x".repeat(60);
         assert_eq!(message(&format!("\"{fits}\"")), format!("\"{fits}\""));
     }

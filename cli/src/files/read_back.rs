@@ -4,14 +4,23 @@ use std::fs;
 use std::path::Path;
 
 use super::{Columns, ParticleFormat};
+use crate::memory::available_bytes;
 use crate::table::Table;
 
+/// What one particle's columns take, bytes: at most thirteen numbers and three words.
+const ROW_BYTES: f64 = 300.0;
+
 /// Reads a file of particles again and compares every column with the table, to the bit. Holds the file and its columns
-/// for that long.
+/// for that long; where there is no memory for them, nothing is compared, and the answer is `false`.
 ///
 /// # Errors
 /// The first difference, by column and particle, or why the file cannot be read.
-pub(crate) fn compare(table: &Table, format: ParticleFormat, path: &Path) -> Result<(), String> {
+pub(crate) fn compare(table: &Table, format: ParticleFormat, path: &Path) -> Result<bool, String> {
+    let size = fs::metadata(path).map_or(0, |meta| meta.len()) as f64;
+    // What has been computed must not be lost for the sake of looking at it again.
+    if size + ROW_BYTES * table.len() as f64 > available_bytes() {
+        return Ok(false);
+    }
     let columns = fs::read(path)
         .map_err(|e| format!("it cannot be read again ({e})"))
         .and_then(|bytes| {
@@ -26,7 +35,8 @@ pub(crate) fn compare(table: &Table, format: ParticleFormat, path: &Path) -> Res
         ));
     }
     numbers(&columns, table)?;
-    words(&columns, table)
+    words(&columns, table)?;
+    Ok(true)
 }
 
 fn differs(column: &str, particle: u32, is: impl ToString, instead: impl ToString) -> String {

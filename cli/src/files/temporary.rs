@@ -52,7 +52,9 @@ pub(super) fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let file = builder.tempfile_in(folder)?;
-    // Where the file system has no locks, leftovers stay: nobody can tell that they are some.
+    // Where the file system has no locks, leftovers stay: nobody can tell that they are some. Elsewhere than on Unix locks
+    // would keep this process itself from reading the file again.
+    #[cfg(unix)]
     let _ = file.as_file().try_lock();
     Ok(file)
 }

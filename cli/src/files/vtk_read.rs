@@ -8,8 +8,8 @@ use super::Columns;
 use super::number_type::{ByteOrder, NumberType};
 use crate::Error;
 
-/// Reads particles: points, and every point array of one component; arrays `normals` … of more are left out. Integers
-/// with a field array `NAME_names` become words.
+/// Reads particles: points, and every point array of one component; others are left out. Integers with a field array
+/// `NAME_names` become words. Memory grows with the bytes that are there, whatever they claim.
 ///
 /// # Errors
 /// [`Error::Input`] where the file is damaged, or has no points.
