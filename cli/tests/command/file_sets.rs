@@ -245,7 +245,7 @@ fn control_characters_are_shown_as_escapes() {
         (&["pack", "scene.toml", "--method", &long][..], "is called"),
         (
             &["pack", "scene.toml", "-o", &format!("out.{long}")],
-            "did you mean",
+            "there are vtu",
         ),
         (
             &["pack", "scene.toml", "-o", &format!("{long}/out.vtu")],
