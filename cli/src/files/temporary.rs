@@ -51,7 +51,14 @@ pub(super) fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    let file = builder.tempfile_in(folder)?;
+    let file = builder.tempfile_in(folder).map_err(|e| {
+        // The hidden name says nothing to anybody.
+        let words = e.to_string();
+        io::Error::new(
+            e.kind(),
+            words.split(" at path ").next().unwrap_or_default(),
+        )
+    })?;
     // Where the file system has no locks, leftovers stay: nobody can tell that they are some. Elsewhere than on Unix locks
     // would keep this process itself from reading the file again.
     #[cfg(unix)]
