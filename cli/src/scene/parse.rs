@@ -126,7 +126,10 @@ fn explain(message: &str) -> String {
         let first = unknown.split(", ").next().unwrap_or(unknown);
         return format!("unknown key \"{first}\"; {}", advice(first, &known));
     }
-    if ["recursion limit", "recursion depth"].iter().any(|words| message.contains(words)) {
+    if ["recursion limit", "recursion depth"]
+        .iter()
+        .any(|words| message.contains(words))
+    {
         return "values lie within one another deeper than any scene needs; remove brackets".into();
     }
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
