@@ -62,12 +62,14 @@ pub enum Error {
     #[error("{0}")]
     Usage(String),
     /// A file cannot be written although everything looked well before.
-    #[error("cannot write {}: {reason}; nothing was left behind", path.display())]
+    #[error("cannot write {}: {reason}; {left}", path.display())]
     Write {
         /// The file.
         path: PathBuf,
-        /// The operating system's reason.
+        /// The operating system's reason, or what was found in the file.
         reason: String,
+        /// What there is on the disk now.
+        left: String,
     },
     /// The machine does not give what is needed.
     #[error("{0}")]
@@ -112,6 +114,26 @@ impl Error {
         Self::Write {
             path: path.to_owned(),
             reason: reason.to_string(),
+            left: "nothing was left behind".into(),
         }
+    }
+
+    /// An [`Error::Write`] that says which files are kept under other names, and which have not got their names back:
+    /// the name, and that which the file has instead.
+    #[must_use]
+    pub(crate) fn with_kept(mut self, kept: &[PathBuf], renamed: &[(PathBuf, PathBuf)]) -> Self {
+        if let Self::Write { left, .. } = &mut self
+            && !kept.is_empty()
+        {
+            let names: Vec<String> = kept.iter().map(|path| path.display().to_string()).collect();
+            *left = format!("what was complete is kept as {}", names.join(", "));
+            if renamed.is_empty() {
+                *left += "; files that were there are as they were";
+            }
+            for (path, now) in renamed {
+                *left += &format!("; what was {} is {} now", path.display(), now.display());
+            }
+        }
+        self
     }
 }

@@ -41,6 +41,7 @@ pub mod files;
 mod findings;
 mod hydrostatic;
 mod labels;
+mod memory;
 mod methods;
 mod overlap;
 pub mod picture;

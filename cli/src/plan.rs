@@ -9,9 +9,10 @@ use sphpack_packing::{Band, Body, Estimate, FrozenLayout, PackingError, Problem}
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Built, Dimension, Space};
-use crate::report::kibibytes;
 use crate::scene::{BandWidth, Fault, Frozen, Method, Role, Scene, Surroundings};
 use crate::{methods, overlap, precedence, roles};
+
+pub(crate) use crate::memory::available_bytes;
 
 /// What a scene will need.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,9 +43,6 @@ pub(crate) struct Prepared<const D: usize> {
     /// Seconds spent on building the bodies.
     pub(crate) seconds: f64,
 }
-
-/// Where `/proc` does not say how much memory there is.
-const FALLBACK_BYTES: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
 
 /// Particles are numbered with 32 bits.
 const MAX_PARTICLES: f64 = 4e9;
@@ -83,11 +81,6 @@ where
     let names = prepared.resolved.body.into_iter().map(|body| body.name);
     let repairs = names.zip(prepared.repairs).collect();
     Ok((prepared.read, repairs, estimate))
-}
-
-/// Memory that can be had without swapping, bytes.
-pub(crate) fn available_bytes() -> f64 {
-    kibibytes("/proc/meminfo", "MemAvailable:").map_or(FALLBACK_BYTES, |bytes| bytes as f64)
 }
 
 /// 2 or 3; looks into files where need be. Refuses scenes that do not pass [`Scene::check`], or mix dimensions.
@@ -304,7 +297,17 @@ where
         estimate.memory_bytes += ROW_BYTES * more;
     }
     let particles = estimate.particles + estimate.frozen;
-    if estimate.memory_bytes > allowed_bytes || particles >= MAX_PARTICLES || particles.is_nan() {
+    if !particles.is_finite() || !estimate.memory_bytes.is_finite() {
+        return Err(Error::Scene {
+            path: scene.path.clone(),
+            at: None,
+            message: format!(
+                "the domain is so many times larger than the spacing {} that its particles cannot be counted; use a larger spacing or a smaller domain",
+                scene.spacing
+            ),
+        });
+    }
+    if estimate.memory_bytes > allowed_bytes || particles >= MAX_PARTICLES {
         return Err(fail(PackingError::TooLarge {
             particles,
             needed_bytes: estimate.memory_bytes,

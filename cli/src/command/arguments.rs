@@ -55,7 +55,9 @@ Examples:
 
 A body's format is told from its content, whatever its name. It is: triangles (STL, binary or text); polygons (OBJ; PLY, binary or text); rows of x,y (a blank line ends a loop); an airfoil's coordinates; or the closed paths, polygons, rectangles, circles and ellipses of an SVG drawing, in the units of its viewBox and with y turned up: (x, y) becomes (x, -y).
 
-Progress goes to standard error, the closing summary to standard output. Ctrl-C stops packing and writes what there is; a second Ctrl-C ends at once.")]
+Progress goes to standard error, the closing summary to standard output. Ctrl-C stops packing and writes what there is; a second Ctrl-C ends at once.
+
+Files are written under hidden names, read again and compared, and then get their names all together, or none does. What is complete but cannot get its name is kept beside it as NAME.rescued.ENDING. With --force a file keeps its mode and, as far as allowed, its owner; a symbolic link is replaced itself, what it points to stays.")]
 pub(super) struct PackArguments {
     /// The scene (.toml), or a body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
     pub(super) input: PathBuf,
@@ -144,13 +146,13 @@ pub(super) struct CheckArguments {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Particles: a CSV file with a header x,y[,z] and optionally volume and kind, a NPZ file with arrays of these names, a PLY file with properties of these names, or a VTU or VTP file. Without volumes, spacing^dimension is taken. Rows whose kind is \"frozen\" support their neighbours and are not measured themselves; where no row is frozen, particles within a support radius of the edge of their bounding box are left out of the figures.
+Particles: a CSV file with a header x,y[,z] and optionally volume and kind, a NPZ file with arrays of these names, a PLY file with properties of these names, or a VTU, VTP or VTK (legacy) file. Without volumes, spacing^dimension is taken. Rows whose kind is \"frozen\" support their neighbours and are not measured themselves; where no row is frozen, particles within a support radius of the edge of their bounding box are left out of the figures.
 
 Examples:
   sphpack quality particles.csv --spacing 0.1
   sphpack quality particles.vtu --spacing 0.1 --kernel wendland-c2 --h-over-spacing 1.3 --json")]
 pub(super) struct QualityArguments {
-    /// The particles (.csv, .npz, .ply, .vtu, .vtp)
+    /// The particles (.csv, .npz, .ply, .vtu, .vtp, .vtk)
     pub(super) particles: PathBuf,
     /// Particle spacing, the root of a particle's volume
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use sphpack_geometry::{HoleLimit, Mesh, Soup};
 
 use super::arguments::CheckArguments;
-use super::{outputs, say};
+use super::plain_text::visible;
+use super::{outputs, say, threads};
 use crate::Error;
 use crate::body_file::body_format;
 use crate::error::{BAD_INPUT, DONE};
@@ -46,6 +47,9 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
             "--wrap closes all holes; leave out --fill-holes".into(),
         ));
     }
+    for path in arguments.repair.iter().chain(&arguments.report) {
+        outputs::check_name(path)?;
+    }
     let dimension = body_format(&arguments.body)?.dimension();
     let (ending, what) = match dimension {
         2 => ("csv", "the mended outline is rows of x,y"),
@@ -73,6 +77,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
         std::slice::from_ref(&arguments.body),
         arguments.force,
     )?;
+    threads::start(None)?;
     let what = Examine {
         spacing: arguments.spacing,
         mend: match (arguments.wrap, arguments.fill_holes) {
@@ -93,20 +98,20 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
             }
             MendedBody::Outline(outline) => files.write(path, |to| outline.write_csv(to))?,
         }
-        written.push(path.display().to_string());
+        written.push(visible(&path.display().to_string()));
     }
     let json = serde_json::to_string_pretty(&examined)
         .map_err(|e| Error::System(format!("the findings cannot be written as JSON: {e}")))?
         + "\n";
     if let Some(path) = &arguments.report {
         files.write(path, |to| to.write_all(json.as_bytes()))?;
-        written.push(path.display().to_string());
+        written.push(visible(&path.display().to_string()));
     }
     files.finish()?;
     if arguments.json {
-        say(&json);
+        say(&json)?;
     } else {
-        say(&words(&examined, &written, arguments));
+        say(&words(&examined, &written, arguments))?;
     }
     Ok(if examined.can_be_packed {
         DONE
@@ -232,7 +237,7 @@ fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) ->
                 let _ = write!(
                     verdict,
                     "; or `sphpack check {} --repair OUT.stl --wrap {}` makes a new, closed mesh on a grid with cells of that size",
-                    arguments.body.display(),
+                    visible(&arguments.body.display().to_string()),
                     short(cell)
                 );
             }

@@ -1,6 +1,7 @@
 //! `sphpack init`.
 
 use super::arguments::InitArguments;
+use super::plain_text::visible;
 use super::{outputs, say};
 use crate::Error;
 use crate::error::DONE;
@@ -9,7 +10,7 @@ use crate::scene::TEMPLATE;
 
 pub(super) fn run(arguments: &InitArguments) -> Result<u8, Error> {
     let Some(path) = &arguments.file else {
-        say(TEMPLATE);
+        say(TEMPLATE)?;
         return Ok(DONE);
     };
     outputs::check(&[path], &[], arguments.force)?;
@@ -18,7 +19,7 @@ pub(super) fn run(arguments: &InitArguments) -> Result<u8, Error> {
     files.finish()?;
     say(&format!(
         "wrote {0}; pack it with: sphpack pack {0}\n",
-        path.display()
-    ));
+        visible(&path.display().to_string())
+    ))?;
     Ok(DONE)
 }

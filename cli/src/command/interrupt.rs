@@ -28,5 +28,5 @@ pub(super) fn watch(is_quiet: bool) -> Result<(), Error> {
             );
         }
     })
-    .map_err(|e| Error::System(format!("cannot watch for Ctrl-C: {e}")))
+    .map_err(|e| Error::System(format!("cannot watch for Ctrl-C ({e}), which takes a thread of its own; raise the limits on processes and memory (ulimit -u, ulimit -v)")))
 }

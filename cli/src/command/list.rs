@@ -62,6 +62,6 @@ pub(super) fn run(what: What) -> Result<u8, Error> {
             }
         }
     }
-    say(&text);
+    say(&text)?;
     Ok(DONE)
 }

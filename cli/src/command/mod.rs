@@ -10,46 +10,60 @@ mod interrupt;
 mod list;
 mod outputs;
 mod pack;
+mod plain_text;
 mod progress;
 mod quality;
 mod summary;
+mod threads;
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
 
+use crate::Error;
 use crate::error::{BAD_INPUT, DONE};
 use arguments::{Arguments, Command};
 
 /// Runs the command with the process's arguments.
 pub fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
-        Err(answer) => {
-            // Help and version are answers too, and no errors.
-            let status = if answer.use_stderr() { BAD_INPUT } else { DONE };
-            let _ = answer.print();
-            return ExitCode::from(status);
+    let result = match Arguments::try_parse() {
+        Ok(arguments) => match arguments.command {
+            Command::Pack(pack) => pack::run(&pack),
+            Command::Check(check) => check::run(&check),
+            Command::Quality(quality) => quality::run(&quality),
+            Command::Init(init) => init::run(&init),
+            Command::List { what } => list::run(what),
+        },
+        Err(answer) if answer.use_stderr() => {
+            let words = answer.render().to_string();
+            let lines: Vec<String> = words.lines().map(plain_text::message).collect();
+            let _ = writeln!(std::io::stderr(), "{}", lines.join("\n"));
+            return ExitCode::from(BAD_INPUT);
         }
-    };
-    let result = match arguments.command {
-        Command::Pack(pack) => pack::run(&pack),
-        Command::Check(check) => check::run(&check),
-        Command::Quality(quality) => quality::run(&quality),
-        Command::Init(init) => init::run(&init),
-        Command::List { what } => list::run(what),
+        // Help and version are answers too, and no errors.
+        Err(answer) => say(&answer.render().to_string()).map(|()| DONE),
     };
     match result {
         Ok(status) => ExitCode::from(status),
         Err(error) => {
-            let _ = writeln!(std::io::stderr(), "sphpack: {error}");
+            let words = plain_text::message(&error.to_string());
+            let _ = writeln!(std::io::stderr(), "sphpack: {words}");
             ExitCode::from(error.status())
         }
     }
 }
 
-/// Writes to standard output; whoever has stopped reading misses the rest.
-fn say(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
+/// Writes to standard output. Whoever has stopped reading, as `head` does, has had enough: that is no error.
+///
+/// # Errors
+/// [`Error::System`] where it takes no more for another reason, a full disk for example.
+fn say(text: &str) -> Result<(), Error> {
+    let mut to = std::io::stdout().lock();
+    match to.write_all(text.as_bytes()).and_then(|()| to.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::System(format!(
+            "standard output cannot be written ({e}), so what was to be said is lost; files that were asked for are written"
+        ))),
+        _ => Ok(()),
+    }
 }

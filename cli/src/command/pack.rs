@@ -8,23 +8,22 @@ use std::time::Instant;
 use sphpack_packing::{Kind, StopReason};
 
 use super::arguments::PackArguments;
+use super::plain_text::visible;
 use super::progress::{Watcher, duration};
-use super::{interrupt, outputs, say, summary};
+use super::{interrupt, outputs, say, summary, threads};
 use crate::Error;
 use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};
-use crate::files::{ParticleFormat, WholeFiles};
+use crate::files::{ParticleFormat, WholeFiles, compare};
 use crate::picture::{PictureFormat, Subject, draw};
 use crate::plan::{dimension, plan};
 use crate::report::peak_memory_bytes;
 use crate::run::{Options, Outcome, run as pack};
 use crate::scene::{Finish, METHODS, Method, PackingSpec, Scene, advice};
 use crate::surroundings::surrounded;
+use crate::table::Table;
 
 /// The margin around a body without a scene, in ∆s.
 const MARGIN_OVER_SPACING: f64 = 8.0;
-
-/// The most threads that make sense.
-const MAX_THREADS: usize = 1024;
 
 /// Evaluations that the time estimate of a dry run reckons with.
 fn typical_evaluations(packing: &PackingSpec) -> f64 {
@@ -40,7 +39,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let scene = scene(arguments)?;
     let dimension = dimension(&scene)?;
     let files = Files::new(arguments, &scene, dimension)?;
-    threads(arguments.threads)?;
+    threads::start(arguments.threads)?;
     if arguments.dry_run {
         return dry_run(&scene, arguments.quiet);
     }
@@ -59,7 +58,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     }
     let written = files.write(&scene, &mut outcome, arguments.force, begin)?;
     if !arguments.quiet {
-        say(&summary::of(&outcome, &written));
+        say(&summary::of(&outcome, &written))?;
     }
     let status = match stop_reason(&outcome) {
         StopReason::Converged if outcome.report.audit.passed => DONE,
@@ -67,7 +66,11 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
         _ => NOT_CONVERGED,
     };
     if arguments.quiet && status != DONE {
-        let _ = writeln!(std::io::stderr(), "sphpack: {}", summary::in_a_line(&outcome.report));
+        let _ = writeln!(
+            std::io::stderr(),
+            "sphpack: {}",
+            summary::in_a_line(&outcome.report)
+        );
     }
     Ok(status)
 }
@@ -77,7 +80,8 @@ fn warn(body: &str, repairs: &[String]) {
     for words in repairs {
         let _ = writeln!(
             std::io::stderr(),
-            "sphpack: warning: body \"{body}\": {words}"
+            "{}",
+            visible(&format!("sphpack: warning: body \"{body}\": {words}"))
         );
     }
 }
@@ -152,21 +156,6 @@ fn positive(name: &str, value: f64) -> Result<(), Error> {
     )))
 }
 
-fn threads(number: Option<usize>) -> Result<(), Error> {
-    let Some(number) = number else {
-        return Ok(());
-    };
-    if !(1..=MAX_THREADS).contains(&number) {
-        return Err(Error::Usage(format!(
-            "--threads is {number}; it must be from 1 to {MAX_THREADS}"
-        )));
-    }
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(number)
-        .build_global()
-        .map_err(|e| Error::System(format!("{number} threads cannot be started: {e}")))
-}
-
 fn dry_run(scene: &Scene, is_quiet: bool) -> Result<u8, Error> {
     let plan = plan(scene, None)?;
     if !is_quiet {
@@ -190,8 +179,20 @@ fn dry_run(scene: &Scene, is_quiet: bool) -> Result<u8, Error> {
         gibibytes(plan.allowed_bytes),
         duration(seconds),
         rayon::current_num_threads(),
-    ));
+    ))?;
     Ok(DONE)
+}
+
+/// Writes particles into the system's folder for temporary files, where their own takes none: they may have taken hours.
+fn rescue(rows: &Table, path: &Path, format: ParticleFormat) -> Option<PathBuf> {
+    let stem = path.file_stem()?.to_string_lossy();
+    let ending = path.extension()?.to_string_lossy();
+    let name = format!("{stem}.rescued-{}.{ending}", std::process::id());
+    let elsewhere = std::env::temp_dir().join(name);
+    let mut files = WholeFiles::new(false);
+    (files.write(&elsewhere, |to| format.write(rows, to))).ok()?;
+    files.finish().ok()?;
+    Some(elsewhere)
 }
 
 /// The files that will be written.
@@ -205,6 +206,13 @@ impl Files {
     /// What was asked for, if it can be written.
     fn new(arguments: &PackArguments, scene: &Scene, dimension: usize) -> Result<Self, Error> {
         let mut names = arguments.output.clone();
+        for path in names
+            .iter()
+            .chain(&arguments.picture)
+            .chain(&arguments.report)
+        {
+            outputs::check_name(path)?;
+        }
         if names.is_empty() {
             names.push(PathBuf::from(format!("{}.vtu", scene.name)));
         }
@@ -258,7 +266,7 @@ impl Files {
     ) -> Result<Vec<String>, Error> {
         let writing = Instant::now();
         let mut files = WholeFiles::new(may_replace);
-        let shown = |path: &Path| path.display().to_string();
+        let shown = |path: &Path| visible(&path.display().to_string());
         let mut written = Vec::new();
         let table = &outcome.table;
         let is_asked_for = |i: usize| scene.includes(table.kind[i]);
@@ -275,9 +283,28 @@ impl Files {
         };
         let frozen = (rows.kind.iter().filter(|&&kind| kind == Kind::Frozen)).count();
         for (path, format) in &self.particles {
-            files.write(path, |to| format.write(&rows, to))?;
+            let mut is_compared = true;
+            let done = files.write_and_check(
+                path,
+                |to| format.write(&rows, to),
+                |written| compare(&rows, *format, written).map(|done| is_compared = done),
+            );
+            if let Err(error) = done {
+                let is_first = written.is_empty();
+                return Err(
+                    match is_first.then(|| rescue(&rows, path, *format)).flatten() {
+                        Some(elsewhere) => error.with_kept(&[elsewhere], &[]),
+                        None => error,
+                    },
+                );
+            }
+            let remark = if is_compared {
+                ""
+            } else {
+                ", not read again for want of memory"
+            };
             written.push(format!(
-                "{} ({} particles and {} frozen ones)",
+                "{} ({} particles and {} frozen ones{remark})",
                 shown(path),
                 crate::picture::grouped(rows.len() - frozen),
                 crate::picture::grouped(frozen)

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::arguments::QualityArguments;
-use super::say;
+use super::{say, threads};
 use crate::Error;
 use crate::audit::Audit;
 use crate::cloud::{Cloud, CloudQuality};
@@ -46,6 +46,7 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
     }
     let kernel = kernel_by_name(&arguments.kernel)
         .map_err(|message| Error::Usage(format!("--kernel: {message}")))?;
+    threads::start(None)?;
     let cloud = Cloud::read(&arguments.particles, arguments.spacing)?;
     let measured = cloud.measure(arguments.spacing, kernel, arguments.h_over_spacing)?;
     let audit = Audit::of_cloud(&cloud, arguments.spacing, &measured);
@@ -74,9 +75,9 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
     if arguments.json {
         let text = serde_json::to_string_pretty(&answer)
             .map_err(|e| Error::System(format!("the figures cannot be written as JSON: {e}")))?;
-        say(&(text + "\n"));
+        say(&(text + "\n"))?;
     } else {
-        say(&words(&answer));
+        say(&words(&answer))?;
     }
     Ok(if answer.audit.passed {
         DONE

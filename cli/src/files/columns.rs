@@ -25,16 +25,21 @@ impl Columns {
     /// [`Error::Input`] where it cannot be read, or has no coordinates.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let format = ParticleFormat::of(path)?;
-        let bytes = super::read_whole(path)?;
+        Self::parse(format, &super::read_whole(path)?, path)
+    }
+
+    /// The columns in the content of a particle file; `path` is for messages. Holds no more than the columns beside the
+    /// bytes, but for one array of a compressed file.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where the content is damaged, or has no coordinates.
+    pub fn parse(format: ParticleFormat, bytes: &[u8], path: &Path) -> Result<Self, Error> {
         match format {
-            ParticleFormat::Csv => super::read_csv(&bytes, path),
-            ParticleFormat::Vtu | ParticleFormat::Vtp => super::read_vtu(&bytes, path),
-            ParticleFormat::Npz => super::read_npz(&bytes, path),
-            ParticleFormat::Ply => super::read_ply(&bytes, path),
-            ParticleFormat::Vtk => Err(Error::input(
-                path,
-                "VTK's legacy files are written, but not read; save it as .vtu, .vtp, .npz, .ply or .csv",
-            )),
+            ParticleFormat::Csv => super::read_csv(bytes, path),
+            ParticleFormat::Vtu | ParticleFormat::Vtp => super::read_vtu(bytes, path),
+            ParticleFormat::Npz => super::read_npz(bytes, path),
+            ParticleFormat::Ply => super::read_ply(bytes, path),
+            ParticleFormat::Vtk => super::read_vtk(bytes, path),
         }
     }
 

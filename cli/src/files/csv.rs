@@ -1,5 +1,6 @@
 //! Particles as comma-separated text: a header, then one row per particle.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::io::{self, Write};
 use std::path::Path;
@@ -142,9 +143,13 @@ pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Columns, Error> {
             ),
         ));
     }
-    let mut columns: Vec<Vec<String>> = vec![Vec::new(); names.len()];
-    let mut line_numbers = Vec::new();
-    for (index, line) in lines {
+    // Twice over the rows, first to see what they are: as text they would take many times the memory.
+    let mut kinds = names
+        .iter()
+        .map(|name| Column::of(name))
+        .collect::<Vec<_>>();
+    let mut count = 0;
+    for (index, line) in lines.clone() {
         let row = fields(line, separator);
         if row.len() != names.len() {
             return Err(Error::input_line(
@@ -157,43 +162,94 @@ pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Columns, Error> {
                 ),
             ));
         }
-        for (column, field) in columns.iter_mut().zip(row) {
-            column.push(field);
+        for (kind, field) in kinds.iter_mut().zip(&row) {
+            kind.see(field, index + 1);
         }
-        line_numbers.push(index + 1);
+        count += 1;
     }
-    let mut result = Columns::default();
-    for (name, column) in names.into_iter().zip(columns) {
-        let parsed: Vec<Option<f64>> = column.iter().map(|f| f.trim().parse().ok()).collect();
-        let must = NUMBERS.contains(&name.as_str());
-        if must
-            && let Some(bad) = parsed
-                .iter()
-                .position(|number| !number.is_some_and(f64::is_finite))
-        {
+    for (name, kind) in names.iter().zip(&kinds) {
+        if let Column::Spoilt(line, field) = kind {
             return Err(Error::input_line(
                 path,
-                line_numbers[bad],
-                format!(
-                    "{name} is \"{}\", not a finite number; correct or remove the row",
-                    column[bad].chars().take(40).collect::<String>()
-                ),
+                *line,
+                format!("{name} is \"{field}\", not a finite number; correct or remove the row"),
             ));
         }
-        match parsed.into_iter().collect::<Option<Vec<f64>>>() {
-            Some(numbers) if must || !matches!(name.as_str(), "kind" | "side" | "body") => {
-                result.numbers.insert(name, numbers);
+    }
+    let mut numbers: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
+    let mut words: Vec<Vec<String>> = vec![Vec::new(); names.len()];
+    for (place, kind) in kinds.iter().enumerate() {
+        match kind {
+            Column::Words => words[place].reserve_exact(count),
+            _ => numbers[place].reserve_exact(count),
+        }
+    }
+    for (_, line) in lines {
+        for (place, field) in fields(line, separator).into_iter().enumerate() {
+            match kinds[place] {
+                Column::Words => words[place].push(field.into_owned()),
+                _ => numbers[place].extend(field.trim().parse::<f64>()),
             }
-            _ => {
-                result.words.insert(name, column);
-            }
+        }
+    }
+    let mut result = Columns::default();
+    let columns = names
+        .into_iter()
+        .zip(kinds)
+        .zip(numbers.into_iter().zip(words));
+    for ((name, kind), (numbers, words)) in columns {
+        match kind {
+            Column::Words => drop(result.words.insert(name, words)),
+            _ => drop(result.numbers.insert(name, numbers)),
         }
     }
     Ok(result)
 }
 
+/// What a column's fields have turned out to be so far.
+enum Column {
+    /// They must be finite numbers.
+    Needed,
+    /// One of them is not, in this line.
+    Spoilt(usize, String),
+    /// All are numbers.
+    Numbers,
+    Words,
+}
+
+impl Column {
+    fn of(name: &str) -> Self {
+        match name {
+            "kind" | "side" | "body" => Self::Words,
+            name if NUMBERS.contains(&name) => Self::Needed,
+            _ => Self::Numbers,
+        }
+    }
+
+    fn see(&mut self, field: &str, line: usize) {
+        let number = || field.trim().parse::<f64>().ok();
+        match self {
+            Self::Needed if !number().is_some_and(f64::is_finite) => {
+                *self = Self::Spoilt(line, field.chars().take(40).collect());
+            }
+            Self::Numbers if number().is_none() => *self = Self::Words,
+            _ => {}
+        }
+    }
+}
+
 /// The fields of a row, without their quotation marks.
-fn fields(row: &str, separator: char) -> Vec<String> {
+fn fields(row: &str, separator: char) -> Vec<Cow<'_, str>> {
+    if !row.contains('"') {
+        return row.split(separator).map(Cow::Borrowed).collect();
+    }
+    quoted_fields(row, separator)
+        .into_iter()
+        .map(Cow::Owned)
+        .collect()
+}
+
+fn quoted_fields(row: &str, separator: char) -> Vec<String> {
     let mut all = vec![String::new()];
     let mut inside = false;
     let mut letters = row.chars().peekable();

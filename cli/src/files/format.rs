@@ -43,6 +43,15 @@ impl ParticleFormat {
         let ending = path
             .extension()
             .map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
+        if ending.is_empty() {
+            let known = PARTICLE_FORMATS.map(|(_, name)| name).join(", ");
+            return Err(Error::input(
+                path,
+                format!(
+                    "the name has no ending that says which format; add one: there are {known}"
+                ),
+            ));
+        }
         PARTICLE_FORMATS
             .iter()
             .find(|(_, name)| *name == ending)

@@ -3,27 +3,32 @@
 mod arrays;
 mod columns;
 mod csv;
-mod format;
 #[cfg(test)]
-mod legacy;
+mod foreign_tests;
+mod format;
 mod npz;
 mod npz_read;
 mod number_type;
 mod ply;
 mod ply_read;
+mod read_back;
 mod sound;
+mod temporary;
 #[cfg(test)]
 mod tests;
 mod vtk;
+mod vtk_read;
 mod vtk_xml;
 mod vtp;
 mod vtu;
 mod vtu_read;
 mod whole;
+#[cfg(test)]
+mod whole_tests;
 mod zip;
 
-use std::fs::File;
-use std::io::Read;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::Path;
 
 use crate::Error;
@@ -35,35 +40,41 @@ pub use npz::write_npz;
 pub use npz_read::read_npz;
 pub use ply::write_ply;
 pub use ply_read::read_ply;
+pub(crate) use read_back::compare;
+pub(crate) use temporary::forget_unfinished;
 pub use vtk::write_vtk;
+pub use vtk_read::read_vtk;
 pub use vtp::write_vtp;
 pub use vtu::write_vtu;
 pub use vtu_read::read_vtu;
-pub(crate) use whole::{WholeFiles, forget_unfinished};
+pub(crate) use whole::WholeFiles;
 
 /// The largest input that is read into memory, bytes.
 const MAX_INPUT: u64 = 8 << 30;
 
 /// Opens a file for reading.
 pub(crate) fn open(path: &Path) -> Result<File, Error> {
-    let file = File::open(path).map_err(|e| {
+    let unusable = |e: io::Error| {
         Error::input(
             path,
             match e.kind() {
-                std::io::ErrorKind::NotFound => {
+                io::ErrorKind::NotFound => {
                     "there is no such file; check the name and the folder".to_owned()
                 }
                 _ => format!("cannot be opened ({e}); check its permissions"),
             },
         )
-    })?;
-    let meta = file
-        .metadata()
-        .map_err(|e| Error::input(path, format!("cannot be read ({e})")))?;
+    };
+    // Before it is opened: a pipe that nobody writes to would be waited for.
+    let meta = fs::metadata(path).map_err(unusable)?;
     if !meta.is_file() {
         return Err(Error::input(
             path,
-            "this is not a file; give the path of one",
+            if meta.is_dir() {
+                "this is not a file, but a folder; give the path of a file in it"
+            } else {
+                "this is not a file, but a pipe or a device; save what it gives to a file first"
+            },
         ));
     }
     if meta.len() > MAX_INPUT {
@@ -75,13 +86,29 @@ pub(crate) fn open(path: &Path) -> Result<File, Error> {
             ),
         ));
     }
-    Ok(file)
+    File::open(path).map_err(unusable)
+}
+
+/// Everything a file holds that must not be longer than `most` bytes; `what` is that which it would be too long for.
+pub(crate) fn read_up_to(path: &Path, most: u64, what: &str) -> Result<Vec<u8>, Error> {
+    let mut bytes = Vec::new();
+    (open(path)?.take(most + 1).read_to_end(&mut bytes))
+        .map_err(|e| Error::input(path, format!("cannot be read ({e})")))?;
+    if bytes.len() as u64 > most {
+        return Err(Error::input(
+            path,
+            format!("the file has more than {most} bytes, too many for {what}"),
+        ));
+    }
+    Ok(bytes)
 }
 
 /// Everything a file holds.
 pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
+    // No more than was asked about, should it go on growing.
     open(path)?
+        .take(MAX_INPUT)
         .read_to_end(&mut bytes)
         .map_err(|e| Error::input(path, format!("cannot be read ({e})")))?;
     Ok(bytes)

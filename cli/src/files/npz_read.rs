@@ -20,6 +20,25 @@ pub fn read_npz(bytes: &[u8], path: &Path) -> Result<Columns, Error> {
     read(bytes).map_err(|message| Error::input(path, message))
 }
 
+/// Sizes up to here are inflated whatever they were before, bytes.
+const HARMLESS: u64 = 256 << 20;
+
+/// How many times larger than the file more than that may become; columns of a lattice come to about a hundred.
+const MOST_GROWTH: u64 = 200;
+
+/// A few bytes that would fill the memory are refused before they do.
+fn refuse_bomb(members: &[Member], size: usize) -> Result<(), String> {
+    let grown = members
+        .iter()
+        .fold(0_u64, |sum, member| sum.saturating_add(member.size));
+    if grown <= HARMLESS || grown / MOST_GROWTH <= size as u64 {
+        return Ok(());
+    }
+    Err(format!(
+        "its {size} bytes would grow to {grown}, more than {MOST_GROWTH} times as many, as no particles do; if they are particles, save them uncompressed (numpy.savez)"
+    ))
+}
+
 fn damaged(what: &str) -> String {
     format!("the NPZ file is damaged: {what}; write it again")
 }
@@ -27,7 +46,9 @@ fn damaged(what: &str) -> String {
 fn read(bytes: &[u8]) -> Result<Columns, String> {
     let mut columns = Columns::default();
     let mut budget = MAX_INPUT;
-    for member in directory(bytes)? {
+    let members = directory(bytes)?;
+    refuse_bomb(&members, bytes.len())?;
+    for member in members {
         let Some(name) = member.name.strip_suffix(".npy") else {
             continue;
         };

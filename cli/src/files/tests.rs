@@ -6,7 +6,6 @@ use proptest::prelude::*;
 use sphpack_packing::Kind;
 use sphpack_separation::Side;
 
-use super::legacy::read_vtk;
 use super::*;
 use crate::table::Table;
 
@@ -123,36 +122,29 @@ proptest! {
             bytes[at] = byte;
             let end = (cut * bytes.len() as f64) as usize;
             for part in [&bytes[..], &bytes[..end]] {
-                for (reader, _) in PARTICLE_FORMATS.iter().filter(|(f, _)| *f != ParticleFormat::Vtk) {
-                    let _ = read_back(*reader, part);
+                for (reader, _) in PARTICLE_FORMATS {
+                    let _ = read_back(reader, part);
                 }
             }
         }
     }
 }
 
-fn written(format: ParticleFormat, table: &Table) -> Vec<u8> {
+pub(super) fn written(format: ParticleFormat, table: &Table) -> Vec<u8> {
     let mut bytes = Vec::new();
     format.write(table, &mut bytes).unwrap();
     bytes
 }
 
 fn read_back(format: ParticleFormat, bytes: &[u8]) -> Result<Columns, Error> {
-    let path = Path::new("p");
-    match format {
-        ParticleFormat::Csv => read_csv(bytes, path),
-        ParticleFormat::Vtu | ParticleFormat::Vtp => read_vtu(bytes, path),
-        ParticleFormat::Npz => read_npz(bytes, path),
-        ParticleFormat::Ply => read_ply(bytes, path),
-        ParticleFormat::Vtk => Ok(read_vtk(bytes)),
-    }
+    Columns::parse(format, bytes, Path::new("p"))
 }
 
 /// A body whose name is as awkward as a scene lets it be.
 const AWKWARD: &str =
     " \u{2003}left; \"wing\" #1, 'öl' & <Ω> 翼 a name of more than sixty-four bytes ";
 
-fn one_particle(dimension: usize) -> Table {
+pub(super) fn one_particle(dimension: usize) -> Table {
     let flat = |[x, y, z]: [f64; 3]| [x, y, if dimension == 2 { 0.0 } else { z }];
     Table {
         dimension,
@@ -236,15 +228,15 @@ fn what_no_file_may_hold() {
 fn a_writer_that_fails_leaves_nothing() {
     /// A disk with room for so many bytes.
     struct Full(usize);
-    impl std::io::Write for Full {
-        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+    impl io::Write for Full {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
             self.0 = self
                 .0
                 .checked_sub(bytes.len())
-                .ok_or_else(|| std::io::Error::other("full"))?;
+                .ok_or_else(|| io::Error::other("full"))?;
             Ok(bytes.len())
         }
-        fn flush(&mut self) -> std::io::Result<()> {
+        fn flush(&mut self) -> io::Result<()> {
             Ok(())
         }
     }
@@ -264,13 +256,95 @@ fn a_writer_that_fails_leaves_nothing() {
             });
             assert!(failed.unwrap_err().to_string().contains("full"));
             drop(files);
-            assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+            assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
         }
-        std::fs::write(&path, "precious").unwrap();
+        fs::write(&path, "precious").unwrap();
         let mut files = WholeFiles::new(false);
         files.write(&path, |to| format.write(&table, to)).unwrap();
-        assert!(files.finish().is_err());
-        assert_eq!(std::fs::read(&path).unwrap(), b"precious");
+        let message = files.finish().unwrap_err().to_string();
+        assert_eq!(fs::read(&path).unwrap(), b"precious");
+        // What was computed is not lost with the name.
+        let kept = folder.path().join(format!("p.rescued.{ending}"));
+        assert!(message.contains(&kept.display().to_string()), "{message}");
+        assert_eq!(fs::read(kept).unwrap(), written(format, &table));
+    }
+}
+
+/// A file of a format, read by [`compare`].
+fn compared(table: &Table, format: ParticleFormat, bytes: &[u8]) -> Result<bool, String> {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    fs::write(file.path(), bytes).unwrap();
+    compare(table, format, file.path())
+}
+
+#[test]
+fn what_was_written_is_what_was_computed() {
+    for dimension in [2, 3] {
+        let good = one_particle(dimension);
+        let no_bodies = Table {
+            bodies: Vec::new(),
+            body: vec![None],
+            ..good.clone()
+        };
+        for table in [&good, &no_bodies, &good.filtered(|_| false)] {
+            for (format, ending) in PARTICLE_FORMATS {
+                let result = compared(table, format, &written(format, table));
+                assert_eq!(result, Ok(true), "{ending}");
+            }
+        }
+    }
+}
+
+#[test]
+fn any_column_that_differs_is_named() {
+    type Change = fn(&mut Table);
+    let changes: [(&str, Change); 14] = [
+        ("id", |t| t.id[0] -= 1),
+        ("x", |t| t.position[0][0] = t.position[0][0].next_up()),
+        ("y", |t| t.position[0][1] = t.position[0][1].next_up()),
+        ("z", |t| t.position[0][2] = t.position[0][2].next_up()),
+        ("volume", |t| t.volume[0] = t.volume[0].next_up()),
+        ("mass", |t| t.mass[0] = 0.0),
+        ("gamma", |t| t.gamma[0] = t.gamma[0].next_up()),
+        ("residual", |t| t.residual[0] = -0.0),
+        ("pressure", |t| t.pressure[0] = 0.0),
+        ("density", |t| t.density[0] = t.density[0].next_down()),
+        ("kind", |t| t.kind[0] = Kind::Free),
+        ("side", |t| t.side[0] = Side::Fluid),
+        ("body", |t| t.body[0] = Some(0)),
+        ("body", |t| t.body[0] = None),
+    ];
+    let good = one_particle(3);
+    for (format, ending) in PARTICLE_FORMATS {
+        for (column, change) in changes {
+            let mut other = good.clone();
+            change(&mut other);
+            // Normals are found by the number.
+            let normals = good.normals.values();
+            other.normals = normals.map(|n| (other.id[0], *n)).collect();
+            let message = compared(&good, format, &written(format, &other)).unwrap_err();
+            let start = format!("read again, {column} of particle 4294967295 is ");
+            assert!(message.starts_with(&start), "{ending}: {message}");
+        }
+        let mut other = good.clone();
+        other.normals.insert(u32::MAX, [0.6, 0.0, 0.8]);
+        let message = compared(&good, format, &written(format, &other)).unwrap_err();
+        assert!(
+            message.contains("ny of particle 4294967295 is 0 instead of -0"),
+            "{message}"
+        );
+        let none = good.filtered(|_| false);
+        let message = compared(&good, format, &written(format, &none)).unwrap_err();
+        assert!(
+            message.contains("0 particles instead of 1"),
+            "{ending}: {message}"
+        );
+        let bytes = written(format, &good);
+        let message = compared(&good, format, &bytes[..bytes.len() / 2]).unwrap_err();
+        assert!(
+            message.contains("cannot be read again"),
+            "{ending}: {message}"
+        );
     }
 }
 
@@ -284,140 +358,4 @@ fn archives_beyond_32_bits() {
         archive.finish("").unwrap();
         agree(&read_back(ParticleFormat::Npz, &bytes).unwrap(), &table).unwrap();
     }
-}
-
-#[test]
-fn npz_of_others() {
-    // numpy.savez_compressed of x (32 bits), y (whole numbers), an array of two axes and one of another length.
-    let columns = read_npz(include_bytes!("others.npz"), Path::new("p.npz")).unwrap();
-    assert_eq!(columns.numbers["x"], [0.5, 1.5, -2.0]);
-    assert_eq!(columns.numbers["y"], [1.0, 2.0, 3.0]);
-    assert_eq!(columns.words["kind"], ["free", "frozen", "é"]);
-    assert_eq!(columns.numbers.len() + columns.words.len(), 3);
-    let good = written(ParticleFormat::Npz, &one_particle(3));
-    let mut bad = good.clone();
-    bad[140] ^= 1;
-    for (bytes, part) in [
-        (&b"PK"[..], "no NPZ file"),
-        (&good[..good.len() - 60], "no NPZ file"),
-        (&bad[..], "checksum"),
-    ] {
-        let message = read_npz(bytes, Path::new("p.npz")).unwrap_err().to_string();
-        assert!(message.contains(part), "{message} lacks {part}");
-    }
-}
-
-#[test]
-fn ply_of_others() {
-    let text = "ply\r\nformat ascii 1.0\ncomment by hand\nelement thing 1\nproperty list uchar int all\nelement vertex 2\n\
-        property float x\nproperty float y\nproperty uchar kind\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n\
-        3 0 1 2\n1 2 0\n3 4 3\n";
-    let columns = read_ply(text.as_bytes(), Path::new("p.ply")).unwrap();
-    assert_eq!(columns.numbers["x"], [1.0, 3.0]);
-    assert_eq!(columns.numbers["kind"], [0.0, 3.0]);
-    for (from, to, part) in [
-        ("ply", "PLY!", "no PLY file"),
-        ("end_header", "end", "no PLY file"),
-        ("vertex 2", "vertex 9", "fewer than 9"),
-        ("3 4 3", "3 four 3", "3 four 3"),
-        ("float y", "real y", "type of y"),
-        ("ascii", "binary_big_endian", "lists"),
-        ("element vertex", "element point", "no vertices"),
-    ] {
-        let message = read_ply(text.replacen(from, to, 1).as_bytes(), Path::new("p.ply"))
-            .unwrap_err()
-            .to_string();
-        assert!(message.contains(part), "{message} lacks {part}");
-    }
-    let mut big = b"ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty short x\nproperty double y\nend_header\n".to_vec();
-    big.extend((-7_i16).to_be_bytes());
-    big.extend(0.25_f64.to_be_bytes());
-    let columns = read_ply(&big, Path::new("p.ply")).unwrap();
-    assert_eq!(
-        [columns.numbers["x"][0], columns.numbers["y"][0]],
-        [-7.0, 0.25]
-    );
-}
-
-#[track_caller]
-fn refuse(text: &str, parts: &[&str]) {
-    let message = read_csv(text.as_bytes(), Path::new("p.csv"))
-        .unwrap_err()
-        .to_string();
-    for part in parts {
-        assert!(message.contains(part), "{message} lacks {part}");
-    }
-}
-
-#[test]
-fn csv_of_others() {
-    let columns = read_csv(
-        b"# made by hand\nX;Y;colour\n1;2;red\n\n3;4;blue\n",
-        Path::new("p.csv"),
-    )
-    .unwrap();
-    assert_eq!(columns.numbers["x"], [1.0, 3.0]);
-    assert_eq!(columns.words["colour"], ["red", "blue"]);
-    refuse("", &["p.csv", "empty"]);
-    refuse("a,b\n1,2\n", &["p.csv:1", "no column \"x\""]);
-    refuse("x,y,x\n1,2,3\n", &["called \"x\""]);
-    refuse("x,y\n1,2\n3\n", &["p.csv:3", "1 fields"]);
-    refuse("x,y\n1,2\n3,nan\n", &["p.csv:3", "y is \"nan\""]);
-    refuse("x,y,volume\n1,2,big\n", &["p.csv:2", "volume"]);
-}
-
-#[test]
-fn vtu_of_others() {
-    let text = "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\
-        <Piece NumberOfPoints=\"2\" NumberOfCells=\"0\"><PointData><DataArray type=\"Float32\" Name=\"volume\" format=\"ascii\">0.5 0.25</DataArray></PointData>\
-        <Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">1 2 0 3 4 0</DataArray></Points></Piece></UnstructuredGrid></VTKFile>";
-    let columns = read_vtu(text.as_bytes(), Path::new("p.vtu")).unwrap();
-    assert_eq!(columns.numbers["x"], [1.0, 3.0]);
-    assert_eq!(columns.numbers["volume"], [0.5, 0.25]);
-    for (from, to, part) in [
-        (
-            "LittleEndian\"",
-            "LittleEndian\" compressor=\"vtkZLibDataCompressor\"",
-            "compressed",
-        ),
-        ("LittleEndian", "BigEndian", "big-endian"),
-        ("UnstructuredGrid", "ImageData", "ImageData"),
-        ("\"2\"", "\"9\"", "9 points"),
-        ("0.25", "a quarter", "no number"),
-        ("format=\"ascii\">1", "format=\"binary\">1", "binary"),
-    ] {
-        let message = read_vtu(text.replace(from, to).as_bytes(), Path::new("p.vtu"))
-            .unwrap_err()
-            .to_string();
-        assert!(
-            message.contains(part) && message.starts_with("p.vtu"),
-            "{message} lacks {part}"
-        );
-    }
-}
-
-#[test]
-fn files_appear_together_or_not_at_all() {
-    let folder = tempfile::tempdir().unwrap();
-    let (a, b) = (folder.path().join("a.txt"), folder.path().join("b.txt"));
-    let listing = || std::fs::read_dir(folder.path()).unwrap().count();
-
-    let mut files = WholeFiles::new(false);
-    files.write(&a, |to| to.write_all(b"first")).unwrap();
-    assert!(!a.exists());
-    let failed = files.write(&b, |_| Err(std::io::Error::other("full")));
-    assert!(failed.unwrap_err().to_string().contains("full"));
-    drop(files);
-    assert_eq!(listing(), 0);
-
-    let mut files = WholeFiles::new(false);
-    files.write(&a, |to| to.write_all(b"second")).unwrap();
-    files.finish().unwrap();
-    assert_eq!(std::fs::read(&a).unwrap(), b"second");
-
-    let mut files = WholeFiles::new(false);
-    files.write(&a, |to| to.write_all(b"third")).unwrap();
-    assert!(files.finish().is_err());
-    assert_eq!(std::fs::read(&a).unwrap(), b"second");
-    assert_eq!(listing(), 1);
 }

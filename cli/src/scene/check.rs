@@ -28,7 +28,11 @@ pub struct Fault {
 pub(super) type Checked = Result<(), Fault>;
 
 /// The largest number of bodies.
-const MAX_BODIES: usize = 1000;
+pub(super) const MAX_BODIES: usize = 1000;
+
+pub(super) fn too_many_bodies(number: usize) -> String {
+    format!("there are {number} bodies; {MAX_BODIES} are the most")
+}
 
 pub(super) fn fault(keys: &[Key], message: impl Into<String>) -> Checked {
     Err(Fault {
@@ -79,13 +83,7 @@ impl Scene {
         positive(&[Key::Name("spacing")], "spacing", self.spacing)?;
         self.check_domain()?;
         if self.body.len() > MAX_BODIES {
-            return fault(
-                &[Key::Name("body")],
-                format!(
-                    "there are {} bodies; {MAX_BODIES} are the most",
-                    self.body.len()
-                ),
-            );
+            return fault(&[Key::Name("body")], too_many_bodies(self.body.len()));
         }
         for (index, body) in self.body.iter().enumerate() {
             check_body(body, index)?;

@@ -6,9 +6,12 @@ use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 use super::Scene;
-use super::check::{Fault, Key};
+use super::check::{Fault, Key, MAX_BODIES, too_many_bodies};
 use super::nearest::advice;
 use crate::Error;
+
+/// The largest scene, bytes; one of a person has some thousand.
+const MAX_BYTES: u64 = 8 << 20;
 
 impl Scene {
     /// Reads and checks a scene file.
@@ -18,7 +21,11 @@ impl Scene {
     /// wrong.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let bytes = crate::files::read_whole(path)?;
+        let bytes = crate::files::read_up_to(
+            path,
+            MAX_BYTES,
+            "a scene; keep long outlines in files of their own",
+        )?;
         let text = String::from_utf8(bytes).map_err(|_| {
             Error::input(
                 path,
@@ -39,6 +46,14 @@ impl Scene {
             at: span.map(|span| line_and_column(text, span.start)),
             message,
         };
+        // A parser would be at work on a million of them for long.
+        let heads = text
+            .match_indices("[[body]]")
+            .filter(|(at, _)| is_first_in_line(text, *at));
+        let number = heads.count();
+        if number > MAX_BODIES {
+            return Err(fail(None, too_many_bodies(number)));
+        }
         let mut scene: Self =
             toml::from_str(text).map_err(|e| fail(e.span(), explain(e.message())))?;
         scene.path = path.to_owned();
@@ -63,6 +78,12 @@ impl Scene {
             }
         }
     }
+}
+
+/// Whether nothing but space is before a byte in its line.
+fn is_first_in_line(text: &str, byte: usize) -> bool {
+    let before = text[..byte].trim_end_matches([' ', '\t']);
+    before.is_empty() || before.ends_with('\n')
 }
 
 /// Line and column, counted from 1, of a byte.
@@ -104,6 +125,12 @@ fn explain(message: &str) -> String {
         let known: Vec<&str> = known.split(", ").collect();
         let first = unknown.split(", ").next().unwrap_or(unknown);
         return format!("unknown key \"{first}\"; {}", advice(first, &known));
+    }
+    if ["recursion limit", "recursion depth"]
+        .iter()
+        .any(|words| message.contains(words))
+    {
+        return "values lie within one another deeper than any scene needs; remove brackets".into();
     }
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     if let [unknown, known @ ..] = quoted.as_slice() {

@@ -1,0 +1,192 @@
+//! Particle files of others, and files that are damaged or mean ill.
+
+use std::path::Path;
+
+use super::tests::{one_particle, written};
+use super::*;
+
+#[test]
+fn npz_of_others() {
+    // numpy.savez_compressed of x (32 bits), y (whole numbers), an array of two axes and one of another length.
+    let columns = read_npz(include_bytes!("others.npz"), Path::new("p.npz")).unwrap();
+    assert_eq!(columns.numbers["x"], [0.5, 1.5, -2.0]);
+    assert_eq!(columns.numbers["y"], [1.0, 2.0, 3.0]);
+    assert_eq!(columns.words["kind"], ["free", "frozen", "é"]);
+    assert_eq!(columns.numbers.len() + columns.words.len(), 3);
+    let good = written(ParticleFormat::Npz, &one_particle(3));
+    let mut bad = good.clone();
+    bad[140] ^= 1;
+    for (bytes, part) in [
+        (&b"PK"[..], "no NPZ file"),
+        (&good[..good.len() - 60], "no NPZ file"),
+        (&bad[..], "checksum"),
+    ] {
+        let message = read_npz(bytes, Path::new("p.npz")).unwrap_err().to_string();
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+}
+
+#[test]
+fn npz_that_would_fill_the_memory() {
+    // Its directory claims what deflate could make of it.
+    let mut bytes = written(ParticleFormat::Npz, &one_particle(3));
+    let entry = bytes
+        .windows(4)
+        .position(|four| four == b"PK\x01\x02")
+        .unwrap();
+    bytes[entry + 24..entry + 28].copy_from_slice(&0xf000_0000_u32.to_le_bytes());
+    let message = read_npz(&bytes, Path::new("p.npz"))
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("would grow to 40265"), "{message}");
+}
+
+#[test]
+fn vtk_of_others() {
+    let text = "# vtk DataFile Version 5.1\nvtk output\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n1 2 0\n3 4 0\n\
+        METADATA\nINFORMATION 0\n\nVERTICES 3 2\nOFFSETS vtktypeint64\n0 1 2\nCONNECTIVITY vtktypeint64\n0 1\n\
+        POINT_DATA 2\nSCALARS volume double 1\nLOOKUP_TABLE default\n0.5 0.25\nNORMALS Normals float\n0 0 1 0 0 1\n\
+        FIELD FieldData 2\nthe%20id 1 2 vtktypeint64\n7 8\nMETADATA\nINFORMATION 0\n\nkind 1 2 string\nfree\nfro%7Aen\n";
+    let columns = read_vtk(text.as_bytes(), Path::new("p.vtk")).unwrap();
+    assert_eq!(columns.numbers["y"], [2.0, 4.0]);
+    assert_eq!(columns.numbers["volume"], [0.5, 0.25]);
+    assert_eq!(columns.numbers["the id"], [7.0, 8.0]);
+    assert_eq!(columns.words["kind"], ["free", "frozen"]);
+    for (from, to, part) in [
+        ("# vtk", "#vtk", "no legacy VTK file"),
+        ("ASCII", "TEXT", "neither ASCII nor BINARY"),
+        ("POLYDATA", "STRUCTURED_POINTS", "STRUCTURED_POINTS"),
+        ("POINTS 2", "POINTS many", "no number of things"),
+        (
+            "POINTS 2",
+            "POINTS 99999999999999999999",
+            "no number of things",
+        ),
+        (
+            "POINTS 2",
+            "POINTS 18446744073709551615",
+            "more numbers than there can be",
+        ),
+        ("POINTS 2", "POINTS 3", "no number"),
+        ("POINT_DATA 2", "POINT_DATA 3", "more or fewer points"),
+        (
+            "1 2 vtktypeint64",
+            "1 1 vtktypeint64",
+            "1 numbers for 2 points",
+        ),
+        ("double", "complex", "no type of numbers"),
+        ("0.5 0.25", "0.5 a_quarter", "a_quarter"),
+        ("NORMALS", "TENSORS", "TENSORS"),
+        ("free\nfro%7Aen\n", "free", "cut off"),
+        ("CONNECTIVITY", "CONNECTION", "no CONNECTIVITY"),
+    ] {
+        let message = read_vtk(text.replacen(from, to, 1).as_bytes(), Path::new("p.vtk"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            message.contains(part) && message.starts_with("p.vtk"),
+            "{message} lacks {part}"
+        );
+    }
+    // Sizes that binary files claim are not believed.
+    let head = "# vtk DataFile Version 3.0\n\nBINARY\nDATASET UNSTRUCTURED_GRID\n";
+    for claim in [
+        "POINTS 4611686018427387904 double\n",
+        "POINTS 1000000000000 double\n1234",
+        "FIELD FieldData 9999999999999\n",
+    ] {
+        let message = read_vtk((head.to_owned() + claim).as_bytes(), Path::new("p.vtk"))
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains("damaged"), "{message}");
+    }
+}
+
+#[test]
+fn ply_of_others() {
+    let text = "ply\r\nformat ascii 1.0\ncomment by hand\nelement thing 1\nproperty list uchar int all\nelement vertex 2\n\
+        property float x\nproperty float y\nproperty uchar kind\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n\
+        3 0 1 2\n1 2 0\n3 4 3\n";
+    let columns = read_ply(text.as_bytes(), Path::new("p.ply")).unwrap();
+    assert_eq!(columns.numbers["x"], [1.0, 3.0]);
+    assert_eq!(columns.numbers["kind"], [0.0, 3.0]);
+    for (from, to, part) in [
+        ("ply", "PLY!", "no PLY file"),
+        ("end_header", "end", "no PLY file"),
+        ("vertex 2", "vertex 9", "fewer than 9"),
+        ("3 4 3", "3 four 3", "3 four 3"),
+        ("float y", "real y", "type of y"),
+        ("ascii", "binary_big_endian", "lists"),
+        ("element vertex", "element point", "no vertices"),
+    ] {
+        let message = read_ply(text.replacen(from, to, 1).as_bytes(), Path::new("p.ply"))
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+    let mut big = b"ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty short x\nproperty double y\nend_header\n".to_vec();
+    big.extend((-7_i16).to_be_bytes());
+    big.extend(0.25_f64.to_be_bytes());
+    let columns = read_ply(&big, Path::new("p.ply")).unwrap();
+    assert_eq!(
+        [columns.numbers["x"][0], columns.numbers["y"][0]],
+        [-7.0, 0.25]
+    );
+}
+
+#[track_caller]
+fn refuse(text: &str, parts: &[&str]) {
+    let message = read_csv(text.as_bytes(), Path::new("p.csv"))
+        .unwrap_err()
+        .to_string();
+    for part in parts {
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+}
+
+#[test]
+fn csv_of_others() {
+    let columns = read_csv(
+        b"# made by hand\nX;Y;colour\n1;2;red\n\n3;4;blue\n",
+        Path::new("p.csv"),
+    )
+    .unwrap();
+    assert_eq!(columns.numbers["x"], [1.0, 3.0]);
+    assert_eq!(columns.words["colour"], ["red", "blue"]);
+    refuse("", &["p.csv", "empty"]);
+    refuse("a,b\n1,2\n", &["p.csv:1", "no column \"x\""]);
+    refuse("x,y,x\n1,2,3\n", &["called \"x\""]);
+    refuse("x,y\n1,2\n3\n", &["p.csv:3", "1 fields"]);
+    refuse("x,y\n1,2\n3,nan\n", &["p.csv:3", "y is \"nan\""]);
+    refuse("x,y,volume\n1,2,big\n", &["p.csv:2", "volume"]);
+}
+
+#[test]
+fn vtu_of_others() {
+    let text = "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\
+        <Piece NumberOfPoints=\"2\" NumberOfCells=\"0\"><PointData><DataArray type=\"Float32\" Name=\"volume\" format=\"ascii\">0.5 0.25</DataArray></PointData>\
+        <Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">1 2 0 3 4 0</DataArray></Points></Piece></UnstructuredGrid></VTKFile>";
+    let columns = read_vtu(text.as_bytes(), Path::new("p.vtu")).unwrap();
+    assert_eq!(columns.numbers["x"], [1.0, 3.0]);
+    assert_eq!(columns.numbers["volume"], [0.5, 0.25]);
+    for (from, to, part) in [
+        (
+            "LittleEndian\"",
+            "LittleEndian\" compressor=\"vtkZLibDataCompressor\"",
+            "compressed",
+        ),
+        ("LittleEndian", "BigEndian", "big-endian"),
+        ("UnstructuredGrid", "ImageData", "ImageData"),
+        ("\"2\"", "\"9\"", "9 points"),
+        ("0.25", "a quarter", "no number"),
+        ("format=\"ascii\">1", "format=\"binary\">1", "binary"),
+    ] {
+        let message = read_vtu(text.replace(from, to).as_bytes(), Path::new("p.vtu"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            message.contains(part) && message.starts_with("p.vtu"),
+            "{message} lacks {part}"
+        );
+    }
+}

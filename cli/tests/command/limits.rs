@@ -1,0 +1,142 @@
+//! What is too much: for the machine, for the process's limits, for a scene.
+
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+use crate::{CYLINDER, Desk};
+
+/// Runs what must be refused at once.
+#[track_caller]
+fn refuse_soon(desk: &Desk, arguments: &[&str], parts: &[&str]) {
+    let begin = Instant::now();
+    desk.refuse(arguments, parts);
+    // A second where it is built to be fast.
+    assert!(begin.elapsed() < Duration::from_secs(20), "{arguments:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn scenes_must_be_files() {
+    let desk = Desk::new();
+    let made = std::process::Command::new("mkfifo")
+        .arg(desk.path().join("pipe.toml"))
+        .status();
+    assert!(made.expect("mkfifo is there").success());
+    std::fs::create_dir(desk.path().join("folder.toml")).expect("a folder");
+    std::os::unix::fs::symlink("/dev/zero", desk.path().join("zero.toml")).expect("a link");
+    for name in ["pipe.toml", "zero.toml"] {
+        refuse_soon(
+            &desk,
+            &["pack", name],
+            &[name, "a pipe or a device", "save"],
+        );
+    }
+    refuse_soon(&desk, &["pack", "folder.toml"], &["a folder"]);
+    std::fs::rename(desk.path().join("pipe.toml"), desk.path().join("pipe.csv")).expect("a name");
+    for name in ["pipe.csv", "/dev/zero"] {
+        refuse_soon(
+            &desk,
+            &["quality", "pipe.csv", "--spacing", "1"],
+            &["a pipe or a device"],
+        );
+        let spacing = ["--spacing", "1"];
+        refuse_soon(&desk, &["check", name], &["a pipe or a device"]);
+        refuse_soon(
+            &desk,
+            &[&["pack", name], &spacing[..]].concat(),
+            &["a pipe or a device"],
+        );
+    }
+}
+
+#[test]
+fn scenes_have_an_end() {
+    let bodies = "[[body]]\nshape = { circle = { center = [0, 0], radius = 1 } }\n";
+    let desk = Desk::new()
+        .with("many.toml", CYLINDER.to_owned() + &bodies.repeat(100_000))
+        .with(
+            "long.toml",
+            CYLINDER.to_owned() + &"# a remark\n".repeat(1_000_000),
+        )
+        .with(
+            "deep.toml",
+            format!("spacing = {}{}", "[".repeat(10_000), "]".repeat(10_000)),
+        );
+    refuse_soon(
+        &desk,
+        &["pack", "many.toml"],
+        &["100001 bodies; 1000 are the most"],
+    );
+    refuse_soon(
+        &desk,
+        &["pack", "long.toml"],
+        &["long.toml", "bytes, too many for a scene"],
+    );
+    refuse_soon(
+        &desk,
+        &["pack", "deep.toml"],
+        &["deep.toml:1", "remove brackets"],
+    );
+}
+
+#[test]
+fn domains_beyond_counting() {
+    for (spacing, max) in [("1e-300", "1e300"), ("1e-10", "1e10"), ("0.2", "1e160")] {
+        let mut scene = format!("spacing = {spacing}\n");
+        let _ = write!(
+            scene,
+            "[domain]\nmin = [-{max}, -{max}]\nmax = [{max}, {max}]\n"
+        );
+        scene += "[[body]]\nshape = { circle = { center = [0, 0], radius = 1 } }\n";
+        let desk = Desk::new().with("scene.toml", scene);
+        let ending = desk.run(&["pack", "scene.toml"]);
+        assert_eq!(ending.status, Some(2), "{ending:?}");
+        assert!(
+            !ending.stderr.contains("NaN") && !ending.stderr.contains("inf "),
+            "{ending:?}"
+        );
+        assert!(ending.stderr.contains("larger spacing"), "{ending:?}");
+    }
+}
+
+/// Runs the command with limits that a shell sets.
+#[cfg(target_os = "linux")]
+fn limited(desk: &Desk, limits: &str, arguments: &[&str]) -> (Option<i32>, String) {
+    let output = std::process::Command::new("bash")
+        .args(["-c", &format!("{limits}; exec \"$0\" \"$@\"")])
+        .arg(env!("CARGO_BIN_EXE_sphpack"))
+        .args(arguments)
+        .current_dir(desk.path())
+        .output()
+        .expect("a shell");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.code(), said)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn limits_of_memory_are_kept() {
+    let large = CYLINDER.replace("spacing = 0.2", "spacing = 0.002");
+    let desk = Desk::new().with("scene.toml", large);
+    let arguments = ["pack", "scene.toml", "--dry-run", "--threads", "1"];
+    let (status, said) = limited(&desk, ":", &arguments);
+    assert_eq!(status, Some(0), "{said}");
+    let (status, said) = limited(&desk, "ulimit -v 400000", &arguments);
+    assert_eq!(status, Some(2), "{said}");
+    assert!(said.contains("GiB allowed"), "{said}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_that_are_refused_are_an_error() {
+    let desk = Desk::new().with("scene.toml", CYLINDER);
+    // So many stacks do not fit.
+    let arguments = ["pack", "scene.toml", "--threads", "1024"];
+    let (status, said) = limited(&desk, "ulimit -v 600000", &arguments);
+    assert_eq!(status, Some(1), "{said}");
+    assert!(
+        said.contains("1024 threads cannot be started") && said.contains("--threads 1"),
+        "{said}"
+    );
+    assert_eq!(desk.files(), ["scene.toml"]);
+}
