@@ -2,6 +2,8 @@
 
 mod anyone;
 
+use std::time::Instant;
+
 use serde::Serialize;
 use sphpack_neighbors::point;
 use sphpack_packing::closest_pair::CROWDED;
@@ -44,6 +46,8 @@ pub struct Audit {
     pub worst_at: Vec<f64>,
     /// What is wrong, the likely cause and the cure; a sentence each.
     pub messages: Vec<String>,
+    /// What it took, of the packing's `seconds.measuring`.
+    pub seconds: f64,
 }
 
 impl Audit {
@@ -62,6 +66,7 @@ impl Audit {
         solution: &Solution<D>,
         volumes: &[f64],
     ) -> Self {
+        let begin = Instant::now();
         let quality = &solution.quality;
         let mut audit = Self {
             passed: true,
@@ -73,6 +78,7 @@ impl Audit {
             gamma_max: quality.density.max,
             worst_at: Vec::new(),
             messages: Vec::new(),
+            seconds: 0.0,
         };
         audit.numbers(solution);
         if audit.passed {
@@ -85,6 +91,7 @@ impl Audit {
         if !audit.passed {
             audit.messages.push(cure(scene));
         }
+        audit.seconds = begin.elapsed().as_secs_f64();
         audit
     }
 
@@ -161,7 +168,12 @@ impl Audit {
         let particles = &solution.packed.particles;
         let site = problem.filling().volume_per_site();
         let rooms = problem.rooms();
-        let solid = |b: usize| scene.body.get(b).is_none_or(|body| body.role == Role::Solid);
+        let solid = |b: usize| {
+            scene
+                .body
+                .get(b)
+                .is_none_or(|body| body.role == Role::Solid)
+        };
         for (number, body) in problem.bodies.iter().enumerate() {
             if !(info.fills_bodies && solid(number)) {
                 continue;
@@ -211,9 +223,13 @@ impl Audit {
         } = solution;
         let particles = &packed.particles;
         let spacing = packed.spacing;
-        let far = solution.quality.surface.iter().fold(0.0, |most: f64, surface| {
-            most.max(surface.max_distance_over_spacing)
-        });
+        let far = solution
+            .quality
+            .surface
+            .iter()
+            .fold(0.0, |most: f64, surface| {
+                most.max(surface.max_distance_over_spacing)
+            });
         if far > ON_SURFACE_OVER_SPACING {
             self.wrong_side += 1;
             let message = format!("a boundary particle is {far:.1e} spacings off its surface");
@@ -247,9 +263,8 @@ impl Audit {
                 }
                 // Containers beside each other: within one is enough.
                 let is_elsewhere = role(b) == Role::Container
-                    && (0..problem.bodies.len()).any(|c| {
-                        role(c) == Role::Container && depths.to_body(c, place) <= slack
-                    });
+                    && (0..problem.bodies.len())
+                        .any(|c| role(c) == Role::Container && depths.to_body(c, place) <= slack);
                 if is_elsewhere {
                     continue;
                 }
@@ -259,7 +274,11 @@ impl Audit {
                         Side::Solid => "solid",
                         Side::Fluid => "fluid",
                     };
-                    let words = format!("{what}, {:.2} spacings {how} \"{}\"", beyond / spacing, body.name);
+                    let words = format!(
+                        "{what}, {:.2} spacings {how} \"{}\"",
+                        beyond / spacing,
+                        body.name
+                    );
                     worst = (beyond, places[place], words);
                 }
                 break;

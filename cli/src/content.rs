@@ -26,11 +26,8 @@ pub(crate) fn volumes<const D: usize>(problem: &Problem<D>, solution: &Solution<
         if on < 1.0 {
             let own = particles.body[i].map_or(0, usize::from);
             let hit = bodies[own].surface.closest(particles.position[i]);
-            let beyond = point::add_scaled(
-                hit.point,
-                BEYOND_OVER_SPACING * problem.spacing,
-                hit.normal,
-            );
+            let beyond =
+                point::add_scaled(hit.point, BEYOND_OVER_SPACING * problem.spacing, hit.normal);
             let there = (0..bodies.len())
                 .find(|&b| b != own && bodies[b].surface.inside(beyond))
                 .unwrap_or(bodies.len());

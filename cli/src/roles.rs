@@ -33,7 +33,8 @@ fn lie<const D: usize>(a: &dyn Surface<D>, b: &dyn Surface<D>, spacing: f64) -> 
         (true, true) => Lie::Across,
         (_, false) => {
             // All of it is on the surface, or in; beside it or within is told a little behind.
-            let behind = |at: [f64; D], normal: [f64; D]| point::add_scaled(at, -2.0 * slack, normal);
+            let behind =
+                |at: [f64; D], normal: [f64; D]| point::add_scaled(at, -2.0 * slack, normal);
             let first = a.closest(a.bounds().center());
             if is_in || b.inside(behind(first.point, first.normal)) {
                 Lie::In
@@ -71,7 +72,8 @@ pub(crate) fn order<const D: usize>(scene: &Scene, all: &[Built<D>]) -> Result<V
     };
     // What lies in each.
     let mut inner: Vec<Vec<usize>> = vec![Vec::new(); all.len()];
-    for (solid, void) in of_role(Role::Solid).flat_map(|s| of_role(Role::Void).map(move |v| (s, v))) {
+    for (solid, void) in of_role(Role::Solid).flat_map(|s| of_role(Role::Void).map(move |v| (s, v)))
+    {
         match (lie(solid, void), lie(void, solid)) {
             (Lie::In, _) => {
                 return fail(format!(

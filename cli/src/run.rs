@@ -9,7 +9,6 @@ use std::time::Instant;
 use crate::Error;
 use crate::audit::Audit;
 use crate::body_file::ReadBody;
-use crate::{content, corrected};
 use crate::dimension::{Dimension, Space};
 use crate::hydrostatic::AtRest;
 use crate::labels::{Sorted, sort};
@@ -21,6 +20,7 @@ use crate::report::{
 };
 use crate::scene::{Masses, Role, Scene};
 use crate::table::Table;
+use crate::{content, corrected};
 
 /// What particle files say in place of the reason why settling stopped, where the audit has found something.
 const UNSOUND: &str = "unsound";
@@ -267,11 +267,11 @@ fn report<const D: usize>(
     };
     let bodies = (problem.bodies.iter().zip(&scene.body).zip(volumes))
         .map(|((body, spec), &volume)| BodyReport {
-                name: body.name.clone(),
-                volume_true: body.surface.volume(),
-                volume,
-                mass: spec.density * volume,
-                repairs: Vec::new(),
+            name: body.name.clone(),
+            volume_true: body.surface.volume(),
+            volume,
+            mass: spec.density * volume,
+            repairs: Vec::new(),
         })
         .collect();
     let seconds = &packed.seconds;

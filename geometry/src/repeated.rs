@@ -122,7 +122,10 @@ impl<const D: usize> Surface<D> for Repeated<D> {
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
-        Ok(Arc::new(Self::new(self.surface.inset(depth)?, &self.domain)))
+        Ok(Arc::new(Self::new(
+            self.surface.inset(depth)?,
+            &self.domain,
+        )))
     }
 
     fn sample(&self, count: usize) -> Result<Vec<Closest<D>>, GeometryError> {
@@ -142,7 +145,11 @@ mod tests {
     use crate::{Ball, Cuboid};
 
     /// Against all images, one by one: of a body that touches its own image too.
-    fn check<const D: usize>(body: impl Surface<D> + Clone + 'static, domain: &Domain<D>, p: [f64; D]) {
+    fn check<const D: usize>(
+        body: impl Surface<D> + Clone + 'static,
+        domain: &Domain<D>,
+        p: [f64; D],
+    ) {
         let repeated = Repeated::new(Arc::new(body.clone()), domain);
         let hit = repeated.closest(p);
         let size = domain.bounds.size();
@@ -150,15 +157,26 @@ mod tests {
         for number in 0..7_usize.pow(D as u32) {
             let seen: [f64; D] = std::array::from_fn(|k| {
                 let step = (number / 7_usize.pow(k as u32) % 7) as f64 - 3.0;
-                p[k] - if domain.periodic[k] { step * size[k] } else { 0.0 }
+                p[k] - if domain.periodic[k] {
+                    step * size[k]
+                } else {
+                    0.0
+                }
             });
             least = least.min(body.closest(seen).distance);
         }
-        assert!((hit.distance - least).abs() < 1e-12, "{p:?}: {} {least}", hit.distance);
+        assert!(
+            (hit.distance - least).abs() < 1e-12,
+            "{p:?}: {} {least}",
+            hit.distance
+        );
         assert!((point::distance(hit.point, p) - hit.distance.abs()).abs() < 1e-12);
         if hit.distance.abs() > 1e-9 {
             assert_eq!(repeated.inside(p), hit.distance < 0.0);
-            assert_eq!(repeated.closest_within(p, hit.distance.abs() * 1.001), Some(hit));
+            assert_eq!(
+                repeated.closest_within(p, hit.distance.abs() * 1.001),
+                Some(hit)
+            );
             assert_eq!(repeated.closest_within(p, hit.distance.abs() * 0.999), None);
         }
     }

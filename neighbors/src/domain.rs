@@ -102,7 +102,8 @@ impl<const D: usize> Domain<D> {
                         Ordering::Greater => -periods[k],
                     })
                 });
-                let image: [f64; D] = std::array::from_fn(|k| own[k] + f64::from(step[k]) * size[k]);
+                let image: [f64; D] =
+                    std::array::from_fn(|k| own[k] + f64::from(step[k]) * size[k]);
                 let is_near = (0..D)
                     .all(|k| !periodic[k] || (near.min[k] <= image[k] && image[k] <= near.max[k]));
                 if step != [0; D] && is_near {

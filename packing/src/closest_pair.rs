@@ -28,7 +28,11 @@ impl<const D: usize> ClosestPair<D> {
     };
 
     fn with(self, other: Self) -> Self {
-        let first = if other.crowded < self.crowded { other } else { self };
+        let first = if other.crowded < self.crowded {
+            other
+        } else {
+            self
+        };
         Self {
             distance: self.distance.min(other.distance),
             ..first
@@ -57,7 +61,9 @@ impl<const D: usize> ClosestPair<D> {
         most: usize,
     ) -> Self {
         let size = |volume: f64| volume.max(0.0).powf(1.0 / D as f64);
-        let largest = volumes.iter().fold(0.0, |most: f64, &volume| most.max(size(volume)));
+        let largest = volumes
+            .iter()
+            .fold(0.0, |most: f64, &volume| most.max(size(volume)));
         let margin = likely.max(CROWDED * largest);
         let mut closest = Self::NONE;
         for Slab { order, is_inside } in slabs::slabs(domain, positions, margin, most) {
@@ -144,7 +150,13 @@ mod tests {
         positions[0] = [0.1, 4.0, 0.05];
         positions[5] = [0.1, 4.0, 8.99];
         let volumes: Vec<f64> = (0..positions.len())
-            .map(|i| if i % 100 == 3 { 8.0 } else { 1.0 + 0.1 * (i as f64).cos() })
+            .map(|i| {
+                if i % 100 == 3 {
+                    8.0
+                } else {
+                    1.0 + 0.1 * (i as f64).cos()
+                }
+            })
             .collect();
         let is_asked = |i: usize| !i.is_multiple_of(7);
         for periodic in [true, false] {
@@ -158,15 +170,29 @@ mod tests {
                     .filter(|&i| is_asked(i))
                     .flat_map(|i| (0..positions.len()).map(move |j| (i, j)))
                     .filter(|(i, j)| i != j)
-                    .map(|(i, j)| (point::norm(domain.difference(positions[i], positions[j])), size(i) + size(j)))
+                    .map(|(i, j)| {
+                        (
+                            point::norm(domain.difference(positions[i], positions[j])),
+                            size(i) + size(j),
+                        )
+                    })
             };
             let nearest = pairs().map(|(r, _)| r).fold(f64::INFINITY, f64::min);
-            let crowded = pairs().map(|(r, sizes)| 2.0 * r / sizes).fold(f64::INFINITY, f64::min);
+            let crowded = pairs()
+                .map(|(r, sizes)| 2.0 * r / sizes)
+                .fold(f64::INFINITY, f64::min);
             assert!(crowded < CROWDED);
             for most in [usize::MAX, 300] {
-                let found = ClosestPair::by_slabs(&domain, &positions, &volumes, is_asked, 2.0, most);
-                assert!((found.distance - nearest).abs() < 1e-14, "{found:?} {nearest}");
-                assert!((found.crowded - crowded).abs() < 1e-14, "{found:?} {crowded}");
+                let found =
+                    ClosestPair::by_slabs(&domain, &positions, &volumes, is_asked, 2.0, most);
+                assert!(
+                    (found.distance - nearest).abs() < 1e-14,
+                    "{found:?} {nearest}"
+                );
+                assert!(
+                    (found.crowded - crowded).abs() < 1e-14,
+                    "{found:?} {crowded}"
+                );
             }
         }
     }

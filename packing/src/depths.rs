@@ -12,9 +12,14 @@ const CUBE: f64 = 4.0;
 #[derive(Debug)]
 pub struct Depths {
     bodies: usize,
+    /// Between two surfaces nearer to each other than this there is no room, scene units.
+    narrow: f64,
     /// Site after site, one entry per body.
     phi: Vec<f64>,
 }
+
+/// Two surfaces nearer to each other than this, in ∆s, leave no room for a particle between them.
+const NARROW_OVER_SPACING: f64 = 0.5;
 
 /// What is seen of a body from a place: the signed distance, and the direction in which it grows.
 #[derive(Debug, Clone, Copy)]
@@ -104,6 +109,7 @@ impl Depths {
         }
         Self {
             bodies: bodies.len(),
+            narrow: NARROW_OVER_SPACING * spacing,
             phi,
         }
     }
@@ -121,13 +127,17 @@ impl Depths {
     }
 
     /// How deep a site is in a region, negative outside: in body `region` and no earlier one, or, with `region` the
-    /// number of bodies, in the fluid.
+    /// number of bodies, in the fluid. Where two bodies touch, or nearly, there is no fluid: a site on their common side would
+    /// be as deep in it as one beside a single body.
     pub(crate) fn within(&self, region: usize, site: usize) -> f64 {
         let phi = &self.phi[site * self.bodies..(site + 1) * self.bodies];
-        let outside = phi[..region].iter().copied().fold(f64::INFINITY, f64::min);
+        let (mut outside, mut second) = (f64::INFINITY, f64::INFINITY);
+        for &phi in &phi[..region] {
+            (outside, second) = (outside.min(phi), second.min(phi.max(outside)));
+        }
         match phi.get(region) {
             Some(&own) => outside.min(-own),
-            None => outside,
+            None => outside.min(outside + second - self.narrow),
         }
     }
 }

@@ -31,6 +31,7 @@ impl Audit {
             gamma_max: quality.density.max,
             worst_at: Vec::new(),
             messages: Vec::new(),
+            seconds: 0.0,
         };
         if let Some(ids) = &cloud.id {
             let mut ids = ids.clone();
@@ -79,5 +80,9 @@ fn pair<const D: usize>(cloud: &Cloud, spacing: f64) -> (f64, f64, [f64; 3]) {
     let pair = ClosestPair::of(&domain, &positions, &cloud.volume, is_asked, 2.0 * spacing);
     let place = std::array::from_fn(|k| pair.place.get(k).copied().unwrap_or(0.0));
     let distance = pair.distance / spacing;
-    (if distance.is_finite() { distance } else { 0.0 }, pair.crowded, place)
+    (
+        if distance.is_finite() { distance } else { 0.0 },
+        pair.crowded,
+        place,
+    )
 }

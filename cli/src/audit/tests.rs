@@ -43,7 +43,10 @@ fn after(damage: impl Fn(&mut Solution<2>)) -> Audit {
 fn finds(words: &str, damage: impl Fn(&mut Solution<2>)) -> Audit {
     let audit = after(damage);
     assert!(!audit.passed);
-    assert!(audit.messages.iter().any(|m| m.contains(words)), "{words}: {audit:?}");
+    assert!(
+        audit.messages.iter().any(|m| m.contains(words)),
+        "{words}: {audit:?}"
+    );
     // What was found, and the cure.
     assert!(audit.messages.len() >= 2);
     audit
@@ -51,7 +54,9 @@ fn finds(words: &str, damage: impl Fn(&mut Solution<2>)) -> Audit {
 
 fn first(solution: &Solution<2>, side: Side) -> usize {
     (0..solution.packed.particles.len())
-        .find(|&i| solution.packed.particles.kind[i] == Kind::Free && solution.labels.side[i] == side)
+        .find(|&i| {
+            solution.packed.particles.kind[i] == Kind::Free && solution.labels.side[i] == side
+        })
         .expect("a particle")
 }
 
@@ -74,9 +79,13 @@ fn what_is_outside_is_found() {
 
 #[test]
 fn numbers_that_are_none_are_found() {
-    finds("no finite", |s| s.packed.particles.position[3][0] = f64::NAN);
+    finds("no finite", |s| {
+        s.packed.particles.position[3][0] = f64::NAN
+    });
     finds("no finite", |s| s.packed.particles.volume[3] = -1.0);
-    finds("have the number", |s| s.packed.particles.id[3] = s.packed.particles.id[4]);
+    finds("have the number", |s| {
+        s.packed.particles.id[3] = s.packed.particles.id[4]
+    });
 }
 
 #[test]
@@ -99,7 +108,9 @@ fn volumes_are_found() {
             }
         }
     });
-    let audit = finds("all particles together", |s| s.packed.particles.volume[0] *= 1.0001);
+    let audit = finds("all particles together", |s| {
+        s.packed.particles.volume[0] *= 1.0001
+    });
     assert!(audit.volume_error < 1e-4);
 }
 
@@ -119,7 +130,9 @@ fn the_wrong_side_is_found() {
     });
     finds("off its surface", |s| {
         let all = &mut s.packed.particles;
-        let i = (0..all.len()).find(|&i| all.kind[i] == Kind::Boundary).expect("one");
+        let i = (0..all.len())
+            .find(|&i| all.kind[i] == Kind::Boundary)
+            .expect("one");
         all.position[i][0] += 0.01;
     });
 }

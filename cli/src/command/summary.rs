@@ -73,7 +73,12 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
         line(&mut text, "unfinished", &words, None);
     }
     for (number, words) in audit(report).iter().enumerate() {
-        line(&mut text, if number == 0 { "audit" } else { "" }, words, None);
+        line(
+            &mut text,
+            if number == 0 { "audit" } else { "" },
+            words,
+            None,
+        );
     }
     line(
         &mut text,

@@ -186,5 +186,8 @@ fn solids_that_overlap_are_named() {
         ],
     );
     desk.succeed(&["pack", "touch.toml", "--dry-run"]);
-    desk.succeed(&["pack", "void.toml", "--dry-run"]);
+    desk.refuse(
+        &["pack", "void.toml", "--dry-run"],
+        &["\"plate\" crosses", "\"disc\""],
+    );
 }

@@ -83,6 +83,8 @@ fn a_cylinder_with_every_file() {
         "closest_pair_over_spacing",
         "surface",
         "bodies",
+        "warnings",
+        "audit",
         "seconds",
         "peak_memory_bytes",
         "history",
@@ -97,7 +99,7 @@ fn a_cylinder_with_every_file() {
         ("residual", "max max_tangential mean rms"),
         (
             "seconds",
-            "forces geometry neighbors output projection seeding total",
+            "forces geometry measuring neighbors output projection seeding total",
         ),
     ] {
         let mut found = keys(&report[table]);

@@ -57,7 +57,14 @@ fn a_perfect_lattice() {
 #[test]
 fn volumes_and_frozen_rows_count() {
     let half = lattice("y,x,volume", |x, y| format!("{y},{x},0.005"));
-    let found = answer(&Desk::new().with("p.csv", half), &[]);
+    let ending =
+        Desk::new()
+            .with("p.csv", half)
+            .run(&["quality", "p.csv", "--spacing", "0.1", "--json"]);
+    // Half of what should be there is not sound.
+    assert_eq!(ending.status, Some(3), "{ending:?}");
+    let found: Value = serde_json::from_str(&ending.stdout).expect("JSON");
+    assert_eq!(found["audit"]["passed"], false);
     assert!(
         (found["density"]["max"].as_f64().expect("a number") - 0.5).abs() < 1e-4,
         "{found}"

@@ -283,7 +283,8 @@ fn shallow_overlaps_are_cut_too() {
         &[2.009 * 2.0 - cap, PI],
         2e-6,
     );
-    check(&volumes(&desk, "space.toml"), &[0.991, 0.609], 1e-9);
+    // What cuts is grown by 10⁻⁶ of its size where its edges meet the diagonals of the other's faces.
+    check(&volumes(&desk, "space.toml"), &[0.991, 0.609], 2e-6);
 }
 
 #[test]

@@ -22,14 +22,23 @@ struct Packed {
 }
 
 fn scene(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/scenes")
+        .join(name);
     fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
 /// Packs a scene that may end with 0 or 3.
 fn pack(text: &str) -> Packed {
     let desk = Desk::new().with("scene.toml", text);
-    let ending = desk.run(&["pack", "scene.toml", "-o", "out.csv", "--report", "out.json"]);
+    let ending = desk.run(&[
+        "pack",
+        "scene.toml",
+        "-o",
+        "out.csv",
+        "--report",
+        "out.json",
+    ]);
     assert!(matches!(ending.status, Some(0 | 3)), "{ending:?}");
     let report = serde_json::from_slice(&desk.read("out.json")).expect("JSON");
     let table = String::from_utf8(desk.read("out.csv")).expect("text");
@@ -39,7 +48,9 @@ fn pack(text: &str) -> Packed {
         .map(|line| {
             let cells: BTreeMap<&str, &str> = names.iter().copied().zip(line.split(',')).collect();
             let number = |name: &str| cells[name].parse::<f64>().expect("a number");
-            let axes = ["x", "y", "z"].into_iter().filter(|axis| cells.contains_key(axis));
+            let axes = ["x", "y", "z"]
+                .into_iter()
+                .filter(|axis| cells.contains_key(axis));
             Row {
                 place: axes.map(number).collect(),
                 kind: cells["kind"].to_owned(),
@@ -48,13 +59,22 @@ fn pack(text: &str) -> Packed {
             }
         })
         .collect();
-    Packed { ending, rows, report }
+    Packed {
+        ending,
+        rows,
+        report,
+    }
 }
 
 impl Packed {
     fn numbers(&self, key: &str) -> Vec<f64> {
-        let values = self.report["scene"]["domain"][key].as_array().expect("numbers");
-        values.iter().map(|x| x.as_f64().expect("a number")).collect()
+        let values = self.report["scene"]["domain"][key]
+            .as_array()
+            .expect("numbers");
+        values
+            .iter()
+            .map(|x| x.as_f64().expect("a number"))
+            .collect()
     }
 
     fn spacing(&self) -> f64 {
@@ -64,13 +84,21 @@ impl Packed {
     /// What holds of every packing that is called done.
     #[track_caller]
     fn is_sound(&self) {
-        assert_eq!(self.ending.status, Some(0), "{} {}", self.ending.stdout, self.ending.stderr);
+        assert_eq!(
+            self.ending.status,
+            Some(0),
+            "{} {}",
+            self.ending.stdout,
+            self.ending.stderr
+        );
         assert!(self.report["audit"]["passed"].as_bool().expect("a word"));
         let (min, max) = (self.numbers("min"), self.numbers("max"));
-        let periodic: Vec<bool> = (self.report["scene"]["domain"]["periodic"].as_array().expect("words"))
-            .iter()
-            .map(|word| word.as_bool().expect("a word"))
-            .collect();
+        let periodic: Vec<bool> = (self.report["scene"]["domain"]["periodic"]
+            .as_array()
+            .expect("words"))
+        .iter()
+        .map(|word| word.as_bool().expect("a word"))
+        .collect();
         for row in &self.rows {
             for (k, &x) in row.place.iter().enumerate() {
                 assert!(min[k] <= x && x <= max[k], "{:?}", row.place);
@@ -83,16 +111,27 @@ impl Packed {
                 let square: f64 = (0..a.place.len())
                     .map(|k| {
                         let (d, edge) = (a.place[k] - b.place[k], max[k] - min[k]);
-                        let d = if periodic[k] { d - edge * (d / edge).round() } else { d };
+                        let d = if periodic[k] {
+                            d - edge * (d / edge).round()
+                        } else {
+                            d
+                        };
                         d * d
                     })
                     .sum();
                 let r = square.sqrt();
-                assert!(r >= 0.25 * (size(a) + size(b)), "{:?} {:?}: {r}", a.place, b.place);
+                assert!(
+                    r >= 0.25 * (size(a) + size(b)),
+                    "{:?} {:?}: {r}",
+                    a.place,
+                    b.place
+                );
                 closest = closest.min(r / self.spacing());
             }
         }
-        let told = self.report["closest_pair_over_spacing"].as_f64().expect("a number");
+        let told = self.report["closest_pair_over_spacing"]
+            .as_f64()
+            .expect("a number");
         // Frozen particles count there too.
         assert!(told <= closest + 1e-9, "{told} {closest}");
     }
@@ -187,8 +226,14 @@ fn roles_that_exclude_each_other_name_both() {
     refuse(&scene("solid-in-void.toml"), &void);
     let crossing = scene("solid-in-void-complex.toml");
     refuse(&crossing, &void);
-    refuse(&crossing.replace("\"void\"", "\"container\""), &["\"solid\"", "\"hole\"", "container"]);
-    let outside = scene("solid-in-container.toml").replace("center = [10.0, 10.0], radius = 4.0", "center = [1.5, 1.5], radius = 1.2");
+    refuse(
+        &crossing.replace("\"void\"", "\"container\""),
+        &["\"solid\"", "\"hole\"", "container"],
+    );
+    let outside = scene("solid-in-container.toml").replace(
+        "center = [10.0, 10.0], radius = 4.0",
+        "center = [1.5, 1.5], radius = 1.2",
+    );
     refuse(&outside, &["\"solid\"", "\"hole\"", "container"]);
 }
 
@@ -207,7 +252,11 @@ fn a_solid_stands_in_a_container() {
         };
         let packed = pack(&text);
         packed.is_sound();
-        is_near(packed.volume("solid", 1.0), 16.0 * std::f64::consts::PI, 0.5);
+        is_near(
+            packed.volume("solid", 1.0),
+            16.0 * std::f64::consts::PI,
+            0.5,
+        );
         is_near(packed.total(), 49.0 * std::f64::consts::PI, 0.01 * 154.0);
     }
 }
@@ -215,7 +264,14 @@ fn a_solid_stands_in_a_container() {
 /// Published methods make what they make; nothing is called done that is not.
 #[test]
 fn methods_that_fail_say_so() {
-    for name in ["ppa-crowded.toml", "relaxation-small.toml", "zigzag-floor.toml", "thin-exact.toml", "deep-surface-at-wall.toml", "precedence-sliver.toml"] {
+    for name in [
+        "ppa-crowded.toml",
+        "relaxation-small.toml",
+        "zigzag-floor.toml",
+        "thin-exact.toml",
+        "deep-surface-at-wall.toml",
+        "precedence-sliver.toml",
+    ] {
         let desk = Desk::new().with("scene.toml", scene(name));
         let ending = desk.run(&["pack", "scene.toml", "-o", "out.csv"]);
         if ending.status == Some(2) {
@@ -226,7 +282,10 @@ fn methods_that_fail_say_so() {
             Some(0) => packed.is_sound(),
             _ => {
                 let words = &packed.ending.stdout;
-                assert!(words.contains("audit      FAILED") || words.contains("unfinished"), "{name}: {words}");
+                assert!(
+                    words.contains("audit      FAILED") || words.contains("unfinished"),
+                    "{name}: {words}"
+                );
             }
         }
         let (min, max) = (packed.numbers("min"), packed.numbers("max"));
@@ -254,7 +313,11 @@ fn spiky(count: u32) -> String {
 /// Outlines far finer than a spacing get an answer, of whatever kind.
 #[test]
 fn fine_outlines_get_an_answer() {
-    for text in [scene("starfish-small.toml"), scene("zigzag-teeth.toml"), spiky(1500)] {
+    for text in [
+        scene("starfish-small.toml"),
+        scene("zigzag-teeth.toml"),
+        spiky(1500),
+    ] {
         let desk = Desk::new().with("scene.toml", text);
         let ending = desk.run(&["pack", "scene.toml", "-o", "out.csv"]);
         assert!(matches!(ending.status, Some(0 | 2 | 3)), "{ending:?}");

@@ -59,7 +59,10 @@ impl Balanced {
     /// Those of [`Balanced::pack`].
     pub fn check<const D: usize>(problem: &Problem<D>) -> Result<(), PackingError> {
         problem.check()?;
-        problem.bodies.iter().try_for_each(|body| inset(problem, body).map(drop))
+        problem
+            .bodies
+            .iter()
+            .try_for_each(|body| inset(problem, body).map(drop))
     }
 
     /// Packs the problem.

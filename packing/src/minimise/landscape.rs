@@ -7,8 +7,8 @@ use sphpack_neighbors::point;
 
 use super::Calm;
 use super::sides::Sides;
-use super::walls::Walls;
 use super::vectors;
+use super::walls::Walls;
 use crate::forces::{Forces, Levelling};
 use crate::on_surface::OnSurface;
 use crate::packed::ParticleSurface;

@@ -28,7 +28,8 @@ impl<const D: usize> Walls<D> {
         let open: [bool; D] = self.domain.periodic.map(|periodic| !periodic);
         for &i in mobile {
             let p = &mut particles.position[i as usize];
-            let is_out = (0..D).any(|k| open[k] && !(bounds.min[k]..=bounds.max[k]).contains(&p[k]));
+            let is_out =
+                (0..D).any(|k| open[k] && !(bounds.min[k]..=bounds.max[k]).contains(&p[k]));
             if !is_out || particles.kind[i as usize] != Kind::Free {
                 continue;
             }
@@ -47,6 +48,8 @@ impl<const D: usize> Walls<D> {
 
     /// Particles that a side holds: which, across which axis, and the sign of the way into the box.
     pub(super) fn held(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        self.held.iter().map(|&(i, axis, inward)| (i as usize, axis, inward))
+        self.held
+            .iter()
+            .map(|&(i, axis, inward)| (i as usize, axis, inward))
     }
 }
