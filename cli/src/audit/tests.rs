@@ -80,11 +80,13 @@ fn what_is_outside_is_found() {
 #[test]
 fn numbers_that_are_none_are_found() {
     finds("no finite", |s| {
-        s.packed.particles.position[3][0] = f64::NAN
+        s.packed.particles.position[3][0] = f64::NAN;
     });
-    finds("no finite", |s| s.packed.particles.volume[3] = -1.0);
+    finds("no finite", |s| {
+        s.packed.particles.volume[3] = -1.0;
+    });
     finds("have the number", |s| {
-        s.packed.particles.id[3] = s.packed.particles.id[4]
+        s.packed.particles.id[3] = s.packed.particles.id[4];
     });
 }
 
@@ -109,7 +111,7 @@ fn volumes_are_found() {
         }
     });
     let audit = finds("all particles together", |s| {
-        s.packed.particles.volume[0] *= 1.0001
+        s.packed.particles.volume[0] *= 1.0001;
     });
     assert!(audit.volume_error < 1e-4);
 }
