@@ -146,9 +146,11 @@ mod tests {
             p[0] = (p[0] + 0.2 * (i as f64).sin()).clamp(0.0, 14.0);
             p[1] += 0.1 * (3.0 * i as f64).sin();
         }
-        // Two that are near each other across a side only, and two nearer for their size that are larger.
+        // Two that are near each other across a side only, and two large ones that are nearest for their size in the box.
         positions[0] = [0.1, 4.0, 0.05];
-        positions[5] = [0.1, 4.0, 8.99];
+        positions[5] = [0.1, 4.0, 8.7];
+        positions[103] = [7.0, 4.0, 4.0];
+        positions[203] = [7.8, 4.0, 4.0];
         let volumes: Vec<f64> = (0..positions.len())
             .map(|i| {
                 if i % 100 == 3 {

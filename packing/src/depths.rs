@@ -46,7 +46,7 @@ impl Depths {
     }
 
     /// Exact within `near` (scene units) of a surface, and nowhere nearer than that by mistake. One query per cube of
-    /// [`CUBE`] sites a side, and one per site where that cube is near a surface; elsewhere the distance of the cube's
+    /// four sites a side, and one per site where that cube is near a surface; elsewhere the distance of the cube's
     /// middle is continued along its gradient, off by the cube's diagonal at most.
     pub fn of<const D: usize>(
         bodies: &[Body<D>],

@@ -28,7 +28,8 @@ fn keys(value: &Value) -> Vec<&str> {
 
 #[test]
 fn a_cylinder_with_every_file() {
-    let desk = Desk::new().with("scene.toml", CYLINDER);
+    let all = "[output]\ninclude = [\"free\", \"boundary\", \"fixed\", \"frozen\"]\n";
+    let desk = Desk::new().with("scene.toml", format!("{CYLINDER}{all}"));
     let ending = desk.succeed(&[
         "pack",
         "scene.toml",
