@@ -3,7 +3,10 @@
 use std::process::Command;
 use std::time::Instant;
 
-use crate::{balanced, reproduce, root, tidy};
+use crate::{balanced, reproduce, root, scene_fuzz, tidy};
+
+/// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
+const RANDOM_SCENES: usize = 50;
 
 /// Runs every check; the first that fails ends it.
 pub(crate) fn run() -> Result<(), String> {
@@ -31,7 +34,8 @@ pub(crate) fn run() -> Result<(), String> {
         ..reproduce::Settings::default()
     };
     reproduce::run(&quick)?;
-    balanced::run(&quick)
+    balanced::run(&quick)?;
+    scene_fuzz::run(&scene_fuzz::Settings::new(RANDOM_SCENES))
 }
 
 fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {
