@@ -51,6 +51,22 @@ pub struct Audit {
 }
 
 impl Audit {
+    /// Nothing found yet.
+    fn clean(closest_pair_over_spacing: f64, [gamma_min, gamma_max]: [f64; 2]) -> Self {
+        Self {
+            passed: true,
+            outside: 0,
+            closest_pair_over_spacing,
+            volume_error: 0.0,
+            wrong_side: 0,
+            gamma_min,
+            gamma_max,
+            worst_at: Vec::new(),
+            messages: Vec::new(),
+            seconds: 0.0,
+        }
+    }
+
     fn found<const D: usize>(&mut self, message: String, at: Option<[f64; D]>) {
         if self.messages.is_empty() {
             self.worst_at = at.map_or_else(Vec::new, |p| p.to_vec());
@@ -68,18 +84,11 @@ impl Audit {
     ) -> Self {
         let begin = Instant::now();
         let quality = &solution.quality;
-        let mut audit = Self {
-            passed: true,
-            outside: 0,
-            closest_pair_over_spacing: quality.closest_pair_over_spacing,
-            volume_error: 0.0,
-            wrong_side: 0,
-            gamma_min: quality.density.min,
-            gamma_max: quality.density.max,
-            worst_at: Vec::new(),
-            messages: Vec::new(),
-            seconds: 0.0,
-        };
+        let density = &quality.density;
+        let mut audit = Self::clean(
+            quality.closest_pair_over_spacing,
+            [density.min, density.max],
+        );
         audit.numbers(solution);
         if audit.passed {
             audit.places(solution);

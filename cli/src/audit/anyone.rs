@@ -21,18 +21,8 @@ impl Audit {
             2 => pair::<2>(cloud, spacing),
             _ => pair::<3>(cloud, spacing),
         };
-        let mut audit = Self {
-            passed: true,
-            outside: 0,
-            closest_pair_over_spacing: pair.0,
-            volume_error: 0.0,
-            wrong_side: 0,
-            gamma_min: quality.density.min,
-            gamma_max: quality.density.max,
-            worst_at: Vec::new(),
-            messages: Vec::new(),
-            seconds: 0.0,
-        };
+        let density = &quality.density;
+        let mut audit = Self::clean(pair.0, [density.min, density.max]);
         if let Some(ids) = &cloud.id {
             let mut ids = ids.clone();
             ids.sort_by(f64::total_cmp);
@@ -48,7 +38,6 @@ impl Audit {
             );
             audit.found(message, Some(pair.2));
         }
-        let density = &quality.density;
         let off = (density.max - density.lattice).max(density.lattice - density.min);
         if off > GAMMA_WITHIN {
             let message = format!(

@@ -18,7 +18,7 @@ Examples:
   sphpack check body.stl                         is it closed, which way does it face, does it overlap itself?
   sphpack quality particles.csv --spacing 0.1    how even are anybody's particles?
 
-Exit status: 0 done; 2 bad input; 3 not converged (files are written); 130 interrupted (files are written); 1 anything else."
+Exit status: 0 done and audited; 2 bad input; 3 not settled or not sound (files are written, the summary says what is wrong); 130 interrupted (files are written); 1 anything else."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
