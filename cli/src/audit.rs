@@ -176,7 +176,11 @@ impl Audit {
         let problem = &solution.problem;
         let particles = &solution.packed.particles;
         let site = problem.filling().volume_per_site();
-        let rooms = problem.rooms();
+        let mut rooms = problem.rooms();
+        // Parts too small for a particle leave their volume to what is around them, and a warning says so.
+        for omitted in &solution.packed.omitted {
+            rooms[omitted.body] -= omitted.volume;
+        }
         let solid = |b: usize| {
             scene
                 .body
@@ -260,7 +264,9 @@ impl Audit {
             }
             let held = labels.body[i].map(usize::from);
             for (b, body) in problem.bodies.iter().enumerate() {
-                let phi = depths.to_body(b, place);
+                let phi = Some(depths.to_body(b, place))
+                    .filter(|phi| phi.is_finite())
+                    .unwrap_or_else(|| body.surface.closest(places[place]).distance);
                 let (beyond, how) = match (held, role(b)) {
                     (Some(own), Role::Solid) if own == b => (phi, "out of"),
                     (_, Role::Container) => (phi, "out of"),

@@ -8,10 +8,12 @@ use sphpack_geometry::{
     Ball, BodyFormat, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed,
     Similarity, Sketch, Soup, Surface, Torus,
 };
+use sphpack_packing::Method;
 
 use crate::body_file;
+use crate::methods;
 use crate::precedence::Cuttable;
-use crate::scene::{BodySpec, Shape};
+use crate::scene::{BodySpec, Scene, Shape};
 
 /// A body's surface, and its outline for pictures.
 pub(crate) struct Built<const D: usize> {
@@ -73,6 +75,9 @@ pub(crate) trait Dimension<const D: usize>: Cuttable<D> {
         file: Option<&Path>,
         place: &Similarity<D>,
     ) -> Result<Built<D>, GeometryError>;
+
+    /// The scene's method.
+    fn method(scene: &Scene) -> Box<dyn Method<D>>;
 }
 
 /// The first `D` entries; callers have checked that there are as many.
@@ -94,6 +99,10 @@ fn wrong_dimension(shape: &Shape, dimension: usize) -> GeometryError {
 }
 
 impl Dimension<2> for Space<2> {
+    fn method(scene: &Scene) -> Box<dyn Method<2>> {
+        methods::method(scene)
+    }
+
     fn place(body: &BodySpec) -> Result<Similarity<2>, GeometryError> {
         Similarity::<2>::new(body.scale, body.rotate_degrees.unwrap_or(0.0), shift(body))
     }
@@ -175,6 +184,10 @@ impl Dimension<2> for Space<2> {
 }
 
 impl Dimension<3> for Space<3> {
+    fn method(scene: &Scene) -> Box<dyn Method<3>> {
+        methods::method(scene)
+    }
+
     fn place(body: &BodySpec) -> Result<Similarity<3>, GeometryError> {
         let (axis, degrees) = match &body.rotate {
             Some(rotation) => (array(&rotation.axis), rotation.degrees),

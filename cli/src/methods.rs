@@ -1,73 +1,86 @@
 //! From a scene's method to the one that packs.
 
 use sphpack_packing::{
-    Agitated, Balanced, Band, Clipped, Complex, Coupled, Hybrid, Observer, Packed, Ppa, Problem,
-    Relaxation, Standard, Triangulated, seeding::particle_surfaces,
+    Agitated, Balanced, Band, Clipped, Complex, Coupled, Hybrid, Method as Packs, Observer, Packed,
+    Ppa, Problem, Relaxation, Standard, Triangulated, seeding::particle_surfaces,
 };
 
 use crate::Error;
+use crate::dimension::{Dimension, Space};
 use crate::scene::{BandWidth, Method, PackingSpec, Role, Scene};
 
-/// Packs by the scene's method, with the scene's settings.
-pub(crate) fn pack<const D: usize>(
-    problem: &Problem<D>,
-    scene: &Scene,
-    observer: &mut dyn Observer,
-) -> Result<Packed<D>, Error> {
+/// The scene's method, with the scene's settings.
+pub(crate) fn method<const D: usize>(scene: &Scene) -> Box<dyn Packs<D>>
+where
+    Agitated: Packs<D>,
+    Balanced: Packs<D>,
+    Clipped: Packs<D>,
+    Complex: Packs<D>,
+    Coupled: Packs<D>,
+    Hybrid: Packs<D>,
+    Ppa: Packs<D>,
+    Relaxation: Packs<D>,
+    Standard: Packs<D>,
+    Triangulated: Packs<D>,
+{
     let packing = &scene.packing;
-    let packed = match packing.method {
-        Method::Balanced => Balanced {
+    let max_iterations = packing.max_iterations;
+    match packing.method {
+        Method::Balanced => Box::new(Balanced {
             settling: packing.settling(),
             band: match packing.band {
                 BandWidth::Auto => Band::Auto,
                 BandWidth::Full => Band::Full,
             },
-        }
-        .pack(problem, observer),
-        Method::Hybrid => (packing.hybrid)
-            .apply(Hybrid {
-                velocity_tolerance: packing.velocity_tolerance,
-                max_iterations: packing.max_iterations,
-                settling: packing.minimiser.map(|_| packing.settling()),
-                ..Hybrid::default()
-            })
-            .pack(problem, observer),
-        Method::Standard => Standard {
+        }),
+        Method::Hybrid => Box::new(packing.hybrid.apply(Hybrid {
             velocity_tolerance: packing.velocity_tolerance,
-            max_iterations: packing.max_iterations,
+            max_iterations,
+            settling: packing.minimiser.map(|_| packing.settling()),
+            ..Hybrid::default()
+        })),
+        Method::Standard => Box::new(Standard {
+            velocity_tolerance: packing.velocity_tolerance,
+            max_iterations,
             ..Standard::default()
-        }
-        .pack(problem, observer),
-        Method::Coupled => Coupled {
+        }),
+        Method::Coupled => Box::new(Coupled {
             velocity_tolerance: packing.velocity_tolerance,
-            max_iterations: packing.max_iterations,
+            max_iterations,
             ..Coupled::default()
-        }
-        .pack(problem, observer),
-        Method::Agitated => (packing.agitated)
-            .apply(Agitated {
-                max_iterations: packing.max_iterations,
-                ..Agitated::default()
-            })
-            .pack(problem, observer),
-        Method::Ppa => Ppa {
-            max_iterations: packing.max_iterations,
+        }),
+        Method::Agitated => Box::new(packing.agitated.apply(Agitated {
+            max_iterations,
+            ..Agitated::default()
+        })),
+        Method::Ppa => Box::new(Ppa {
+            max_iterations,
             containers: (scene.body.iter())
                 .map(|body| body.role == Role::Container)
                 .collect(),
             ..Ppa::default()
-        }
-        .pack(problem, observer),
-        Method::Clipped => Clipped.pack(problem, observer),
-        Method::Triangulated => Triangulated.pack(problem, observer),
-        Method::Relaxation => relaxation(packing).pack(problem, observer),
-        Method::Complex => Complex {
+        }),
+        Method::Clipped => Box::new(Clipped),
+        Method::Triangulated => Box::new(Triangulated),
+        Method::Relaxation => Box::new(relaxation(packing)),
+        Method::Complex => Box::new(Complex {
             relaxation: relaxation(packing),
             levelling: packing.settling().levelling,
             ..Complex::default()
-        }
-        .pack(problem, observer),
-    };
+        }),
+    }
+}
+
+/// Packs by the scene's method.
+pub(crate) fn pack<const D: usize>(
+    problem: &Problem<D>,
+    scene: &Scene,
+    observer: &mut dyn Observer,
+) -> Result<Packed<D>, Error>
+where
+    Space<D>: Dimension<D>,
+{
+    let packed = Space::<D>::method(scene).pack(problem, observer);
     packed.map_err(|source| Error::Packing {
         path: scene.path.clone(),
         source,

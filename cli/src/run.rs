@@ -216,7 +216,10 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
     }
 }
 
-/// Solid bodies that get no particles, because they hold less than half of one.
+/// Parts that are named one by one where they get no particles.
+const MOST_NAMED: usize = 5;
+
+/// Solid bodies, and parts of them, that get no particles because they hold less than half of one.
 fn too_small<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Vec<String> {
     let Solution {
         problem, labels, ..
@@ -229,20 +232,45 @@ fn too_small<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Vec<Strin
         has_some[usize::from(*body)] = true;
     }
     let site = problem.filling().volume_per_site();
-    (problem.bodies.iter().zip(&scene.body).zip(has_some))
-        .filter(|((_, spec), has_some)| spec.role == Role::Solid && !has_some)
-        .map(|((body, spec), _)| {
-            let at: Vec<String> = (body.surface.bounds().center().iter())
-                .map(|x| format!("{x:.4}"))
-                .collect();
-            format!(
-                "body \"{}\" at ({}) gets no particles: its volume is {:.2} of a particle's; its room is left to what is around it; a smaller spacing would show it",
-                spec.name,
-                at.join(", "),
-                body.surface.volume() / site
-            )
+    let is_solid = |body: usize| scene.body[body].role == Role::Solid;
+    let words = |body: usize, what: &str, at: [f64; D], volume: f64| {
+        let at: Vec<String> = at.iter().map(|x| format!("{x:.4}")).collect();
+        format!(
+            "{what}body \"{}\" at ({}) gets no particles: its volume {volume:.3e} is {:.2} of a particle's; its room is left to what is around it; a smaller spacing would show it",
+            scene.body[body].name,
+            at.join(", "),
+            volume / site
+        )
+    };
+    let omitted: Vec<_> = (solution.packed.omitted.iter())
+        .filter(|omitted| is_solid(omitted.body))
+        .collect();
+    let mut warnings: Vec<String> = (omitted.iter().take(MOST_NAMED))
+        .map(|omitted| {
+            let what = if has_some[omitted.body] {
+                "a part of "
+            } else {
+                ""
+            };
+            words(omitted.body, what, omitted.at, omitted.volume)
         })
-        .collect()
+        .collect();
+    if let Some(more) = omitted.get(MOST_NAMED..).filter(|more| !more.is_empty()) {
+        let volume: f64 = more.iter().map(|omitted| omitted.volume).sum();
+        warnings.push(format!(
+            "{} more parts get no particles; the volume of all of them is {:.2} of a particle's",
+            more.len(),
+            volume / site
+        ));
+    }
+    for (number, body) in problem.bodies.iter().enumerate() {
+        let is_named = omitted.iter().any(|omitted| omitted.body == number);
+        if is_solid(number) && !has_some[number] && !is_named {
+            let center = body.surface.bounds().center();
+            warnings.push(words(number, "", center, body.surface.volume()));
+        }
+    }
+    warnings
 }
 
 fn report<const D: usize>(

@@ -91,6 +91,12 @@ impl<const D: usize> Surface<D> for Placed<D> {
         }
     }
 
+    fn parts(&self) -> Vec<Arc<dyn Surface<D>>> {
+        (self.surface.parts().into_iter())
+            .map(|part| Arc::new(Self::new(part, self.place)) as Arc<dyn Surface<D>>)
+            .collect()
+    }
+
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
         GeometryError::check_depth(depth)?;
         let inner = self

@@ -121,6 +121,12 @@ impl<const D: usize> Surface<D> for Repeated<D> {
         self.surface.features()
     }
 
+    fn parts(&self) -> Vec<Arc<dyn Surface<D>>> {
+        (self.surface.parts().into_iter())
+            .map(|part| Arc::new(Self::new(part, &self.domain)) as Arc<dyn Surface<D>>)
+            .collect()
+    }
+
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
         Ok(Arc::new(Self::new(
             self.surface.inset(depth)?,

@@ -79,6 +79,13 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
     /// [`GeometryError::Vanished`] where nothing of the body is left.
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError>;
 
+    /// The connected parts of the body, each with the holes in it and of the kind that this surface is; together they are
+    /// the body. Empty where the body is one piece, or where that is not known (shapes by formula are one piece). Outlines
+    /// and meshes know: O(n log n).
+    fn parts(&self) -> Vec<Arc<dyn Surface<D>>> {
+        Vec::new()
+    }
+
     /// `count` points spread evenly over the surface, features first: corners, then sharp edges evenly by arc length,
     /// then the patches. Each is a [`Closest`] with distance 0: its point, the outward normal there, and the feature
     /// that it was put on ([`Feature::Smooth`] for all others, wherever they came to lie).

@@ -72,8 +72,8 @@ impl Complex {
     /// Packs the problem.
     ///
     /// # Errors
-    /// Those of [`Relaxation::pack`].
-    pub fn pack<const D: usize>(
+    /// Those of packing bodies and fluid apart, as [`Relaxation`].
+    pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
         observer: &mut dyn Observer,

@@ -150,6 +150,7 @@ impl<'a> Course<'a> {
                 .collect(),
             surfaces,
             knows_sides: false,
+            omitted: Vec::new(),
             stop_reason: if self.interrupted {
                 StopReason::Interrupted
             } else {

@@ -73,7 +73,7 @@ impl Hybrid {
     ///
     /// # Errors
     /// Those of [`Problem::check`], and [`PackingError::Surface`].
-    pub fn pack<const D: usize>(
+    pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
         observer: &mut dyn Observer,

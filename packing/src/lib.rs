@@ -6,7 +6,7 @@
 //! ```
 //! use sphpack_geometry::Ball;
 //! use sphpack_neighbors::Domain;
-//! use sphpack_packing::{Balanced, Problem, Silent};
+//! use sphpack_packing::{Balanced, Method, Problem, Silent};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let cylinder = Ball::new([0.0, 0.0], 1.0)?;
@@ -36,6 +36,7 @@ pub mod forces;
 mod hybrid;
 pub mod lattice;
 pub mod masses;
+mod method;
 pub mod minimise;
 mod motion;
 pub mod observer;
@@ -71,9 +72,10 @@ pub use depths::Depths;
 pub use hybrid::Hybrid;
 pub use lattice::Lattice;
 pub use masses::{MassCorrection, correct_masses};
+pub use method::Method;
 pub use minimise::{Finish, MinimiserKind, Settling};
 pub use observer::{Observer, Phase, Progress, Sample, Silent};
-pub use packed::{Packed, ParticleSurface, Seconds, StopReason};
+pub use packed::{Omitted, Packed, ParticleSurface, Seconds, StopReason};
 pub use particles::{Kind, Particles};
 pub use ppa::Ppa;
 pub use problem::{Body, Estimate, FrozenLayout, PackingError, Problem};

@@ -61,6 +61,17 @@ pub struct ParticleSurface<const D: usize> {
     pub target_count: usize,
 }
 
+/// A part of a body that has no particles because it holds less than half of one. Its volume is with what is around it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Omitted<const D: usize> {
+    /// The body's index.
+    pub body: usize,
+    /// A point of its surface, scene units.
+    pub at: [f64; D],
+    /// Its volume, scene units to the power D.
+    pub volume: f64,
+}
+
 /// Particles at rest, with what is known about them and how they came there.
 #[derive(Debug, Clone)]
 pub struct Packed<const D: usize> {
@@ -84,6 +95,8 @@ pub struct Packed<const D: usize> {
     pub surfaces: Vec<ParticleSurface<D>>,
     /// Whether `particles.body` says of every free particle which body it is part of, `None` for the fluid.
     pub knows_sides: bool,
+    /// Parts that were too small for a particle, by methods that pack parts.
+    pub omitted: Vec<Omitted<D>>,
     /// Why it stopped.
     pub stop_reason: StopReason,
     /// Iterations of the method.

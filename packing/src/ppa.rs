@@ -82,7 +82,7 @@ impl Ppa {
     ///
     /// # Errors
     /// Those of [`Problem::check`], and [`PackingError::Surface`].
-    pub fn pack<const D: usize>(
+    pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
         observer: &mut dyn Observer,

@@ -67,7 +67,7 @@ mod tests {
     use sphpack_neighbors::{Domain, point};
 
     use crate::seeding::seed;
-    use crate::{Hybrid, Kind, Packed, Problem, Silent};
+    use crate::{Hybrid, Kind, Method, Packed, Problem, Silent};
 
     fn disc() -> Problem<2> {
         Problem::new(Domain::new([-1.2; 2], [1.2; 2]), 0.1)

@@ -251,18 +251,13 @@ impl<const D: usize> Problem<D> {
     /// The volume of every body without the bodies in it that come before, and that of the box without all of them last,
     /// scene units to the power D.
     pub fn rooms(&self) -> Vec<f64> {
-        let volume = |number: usize| self.bodies[number].surface.volume();
-        let inside = crate::balanced::shares::directly_inside(&self.bodies, self.spacing);
-        (inside.iter().enumerate())
-            .map(|(region, within)| {
-                let whole = if region < self.bodies.len() {
-                    volume(region)
-                } else {
-                    self.domain.bounds.volume()
-                };
-                whole - within.iter().map(|&a| volume(a)).sum::<f64>()
-            })
-            .collect()
+        let parts = crate::balanced::parts::Parts::of(self);
+        let room = parts.rooms();
+        let mut rooms = vec![0.0; self.bodies.len() + 1];
+        for (region, room) in room.into_iter().enumerate() {
+            rooms[parts.owner(region)] += room;
+        }
+        rooms
     }
 
     /// How deep the frozen layer is, scene units: the longer of [`Problem::reach`] and [`Problem::seen_within`].

@@ -6,6 +6,7 @@ use sphpack_geometry::{Ball, Outline};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
+use crate::method::Method;
 use crate::{
     Agitated, Clipped, Complex, Coupled, Hybrid, Kind, Lattice, Observer, Packed, PackingError,
     Ppa, Problem, Progress, Relaxation, Silent, Standard, StopReason, Triangulated,

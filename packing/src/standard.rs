@@ -55,7 +55,7 @@ impl Standard {
     ///
     /// # Errors
     /// Those of [`Problem::check`], [`PackingError::Surface`], and [`PackingError::OnlyPlane`] in space.
-    pub fn pack<const D: usize>(
+    pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
         observer: &mut dyn Observer,

@@ -8,6 +8,7 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, point};
 
 use crate::forces::Forces;
+use crate::method::Method;
 use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::seed;
 use crate::{

@@ -37,7 +37,7 @@ impl Triangulated {
     ///
     /// # Errors
     /// Those of [`Problem::check`], [`PackingError::Surface`] and [`PackingError::OnlyPlane`].
-    pub fn pack<const D: usize>(
+    pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
         observer: &mut dyn Observer,

@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use sphpack::scene::{AgitatorsAre, Method};
+use sphpack::scene::{AgitatorsAre, Method as Named};
 use sphpack::{Options, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
-use sphpack_packing::{Agitated, Agitators, Lattice, Packed, Problem, Silent};
+use sphpack_packing::{Agitated, Agitators, Lattice, Method, Packed, Problem, Silent};
 
 use crate::chart::{Axis, Chart, Scale, Series};
 use crate::reproduce::{Settings, load};
@@ -106,7 +106,7 @@ pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
                 continue;
             };
             scene.spacing = spacing;
-            scene.packing.method = Method::Agitated;
+            scene.packing.method = Named::Agitated;
             scene.packing.agitated.agitators = agitators;
             scene.quality.kernel = Some(KernelKind::Quintic);
             scene.quality.h_over_spacing = Some(1.2);
@@ -141,7 +141,10 @@ fn stirred<const D: usize>(
     lattice: Lattice,
     text: &mut String,
     curves: &mut Vec<Series>,
-) -> Result<(), String> {
+) -> Result<(), String>
+where
+    Agitated: Method<D>,
+{
     problem.lattice = Some(lattice);
     for (forces, repulsion) in [("ND", 0.0), ("ND + RF", 1.0 / 2000.0)] {
         for (words, agitators) in [

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use sphpack_geometry::{Outline, Surface};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, KdTree, point};
-use sphpack_packing::{Complex, Fields, Packed, Particles, Problem, Relaxation, Silent};
+use sphpack_packing::{Complex, Fields, Method, Packed, Particles, Problem, Relaxation, Silent};
 
 use crate::parsed::parsed;
 use crate::reproduce::Settings;

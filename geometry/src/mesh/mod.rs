@@ -3,6 +3,7 @@
 mod features;
 mod inset;
 mod normals;
+mod pieces;
 mod strew;
 mod surface;
 #[cfg(test)]
@@ -11,7 +12,7 @@ pub(crate) mod topology;
 pub(crate) mod triangle;
 pub(crate) mod weld;
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use sphpack_neighbors::{Bounds, point};
 
@@ -46,6 +47,8 @@ pub struct Mesh {
     bvh: Bvh<3>,
     normals: Normals,
     features: OnceLock<Features<3>>,
+    /// The connected parts, once they were asked for.
+    parts: OnceLock<Vec<Arc<Self>>>,
     area: f64,
     volume: f64,
 }
@@ -118,6 +121,7 @@ impl Mesh {
             bvh,
             corners,
             features: OnceLock::new(),
+            parts: OnceLock::new(),
             vertices,
             triangles,
         })

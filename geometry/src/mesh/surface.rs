@@ -131,6 +131,13 @@ impl Surface<3> for Mesh {
         self.features.get_or_init(|| self.find_features()).clone()
     }
 
+    fn parts(&self) -> Vec<Arc<dyn Surface<3>>> {
+        let pieces = || self.pieces().into_iter().map(Arc::new).collect();
+        (self.parts.get_or_init(pieces).iter())
+            .map(|part| Arc::clone(part) as Arc<dyn Surface<3>>)
+            .collect()
+    }
+
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
         inset::inset(self, depth)
     }

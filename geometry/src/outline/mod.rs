@@ -5,6 +5,7 @@ pub(crate) mod check;
 mod engine;
 mod inside;
 mod offset;
+mod pieces;
 mod shapes;
 mod surface;
 mod swept;

@@ -134,6 +134,12 @@ impl Surface<2> for Outline {
         }
     }
 
+    fn parts(&self) -> Vec<Arc<dyn Surface<2>>> {
+        (self.pieces().into_iter())
+            .map(|part| Arc::new(part) as Arc<dyn Surface<2>>)
+            .collect()
+    }
+
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<2>>, GeometryError> {
         GeometryError::check_depth(depth)?;
         Ok(Arc::new(self.offset(-depth)?))

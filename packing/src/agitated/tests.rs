@@ -6,7 +6,7 @@ use sphpack_neighbors::{Domain, point};
 use super::near::{Near, REACH};
 use super::{Agitated, Agitators};
 use crate::particles::Particles;
-use crate::{Kind, Lattice, Problem, Silent, StopReason};
+use crate::{Kind, Lattice, Method, Problem, Silent, StopReason};
 
 /// Repulsion reaches across periodic sides: it conserves momentum there, and pushes as it does within.
 #[test]

@@ -2,7 +2,11 @@
 
 mod band;
 mod clashes;
+mod gaps;
+pub(crate) mod parts;
+mod pockets;
 pub(crate) mod shares;
+pub(crate) mod sites;
 #[cfg(test)]
 mod tests;
 
@@ -12,19 +16,23 @@ use std::time::Instant;
 use sphpack_geometry::{
     Closest, Feature, GeometryError, Surface, SurfaceSamples, sample_particles,
 };
+use sphpack_neighbors::point;
 
 use crate::course::Course;
 use crate::depths::Depths;
 use crate::forces::Forces;
 use crate::minimise::{Landscape, Settling};
 use crate::observer::{Observer, Phase};
-use crate::packed::{Packed, ParticleSurface, StopReason};
+use crate::packed::{Omitted, Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{Body, DEFAULT_INSET_OVER_SPACING, PackingError, Problem};
 use crate::seeding::{Seeds, seed_lattice};
 pub use band::Band;
 use band::Part;
 use clashes::Clash;
+use parts::Parts;
+use pockets::Pockets;
+use shares::Held;
 
 /// The balanced method.
 ///
@@ -56,29 +64,38 @@ impl Balanced {
     /// Whether the problem can be packed, as far as that is known before particles are placed.
     ///
     /// # Errors
-    /// Those of [`Balanced::pack`].
+    /// Those of [`Balanced::pack`](crate::Method::pack).
     pub fn check<const D: usize>(problem: &Problem<D>) -> Result<(), PackingError> {
         problem.check()?;
-        problem
-            .bodies
-            .iter()
-            .try_for_each(|body| inset(problem, body).map(drop))
+        for body in &problem.bodies {
+            if inset(problem, body)?.is_none() && !is_usual(body) {
+                let depth = body.inset_over_spacing * problem.spacing;
+                return Err(PackingError::Surface {
+                    body: body.name.clone(),
+                    source: GeometryError::Vanished { depth },
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Packs the problem.
     ///
     /// # Errors
     /// Those of [`Problem::check`], and [`PackingError::Surface`].
-    pub fn pack<const D: usize>(
+    pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
         observer: &mut dyn Observer,
     ) -> Result<Packed<D>, PackingError> {
         let settling = &self.settling;
         let mut course = Course::new(observer, settling.tolerance(), settling.max_evaluations);
-        problem.check()?;
+        Self::check(problem)?;
         course.enter(Phase::Geometry);
         let geometry = Instant::now();
+        let whole = problem;
+        let parts = Parts::of(whole);
+        let problem = &parts.problem;
         let (mut surfaces, mut samples) = sample(problem)?;
         let clashes = clashes::resolve(&mut samples, problem.spacing);
         for (surface, points) in surfaces.iter_mut().zip(&samples) {
@@ -91,10 +108,11 @@ impl Balanced {
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
         let mut width = self.band.first_width(problem, settling.finish);
+        let (seeds, omitted) = place(&parts, &surfaces, &samples, &clashes);
         let Seeds {
             mut particles,
             frozen_lattice,
-        } = place(problem, &surfaces, &samples, &clashes);
+        } = seeds;
         course.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         course.enter(Phase::Settling);
@@ -124,7 +142,7 @@ impl Balanced {
             }
             width *= WIDER;
         }
-        Ok(course
+        let mut packed = course
             .end(
                 problem,
                 particles,
@@ -133,17 +151,20 @@ impl Balanced {
                 &forces,
                 stop_reason,
             )
-            .with_known_sides())
+            .with_known_sides();
+        packed.omitted = omitted;
+        Ok(parts.gather(packed, whole, |body| inset(whole, body).ok().flatten()))
     }
 }
 
-/// Surface particles, and the sites that are left to bodies and fluid.
+/// Surface particles, and the sites that are left to parts and fluid; and the parts that get neither.
 fn place<const D: usize>(
-    problem: &Problem<D>,
+    parts: &Parts<D>,
     surfaces: &[ParticleSurface<D>],
     samples: &[Vec<Closest<D>>],
     clashes: &[Clash],
-) -> Seeds<D> {
+) -> (Seeds<D>, Vec<Omitted<D>>) {
+    let problem = &parts.problem;
     let (filling, frozen_lattice) = seed_lattice(problem);
     let sites = filling.sites();
     let volume = filling.volume_per_site();
@@ -154,22 +175,37 @@ fn place<const D: usize>(
         2.0 * problem.spacing,
         &sites,
     );
-    let on_surface: Vec<usize> = samples.iter().map(Vec::len).collect();
-    let shares = shares::shares(problem, surfaces, &on_surface, clashes, sites.len(), volume);
-    let region_of = shares::choose(
+    let least = 0.5 * volume;
+    let (mut room, omitted) = rooms(parts, samples, least);
+    let fluid = room.pop().unwrap_or(0.0);
+    let pockets = Pockets::of(problem, &sites, &depths, fluid, least);
+    room.extend(&pockets.volume);
+    let held: Vec<Held<'_, D>> = (problem.bodies.iter().zip(surfaces).enumerate())
+        .map(|(part, (body, surface))| Held {
+            body,
+            surface: surface.surface.as_ref(),
+            points: samples[part].len(),
+            removed: clashes[part].removed,
+            reaches: reaches(problem, &pockets, part, &samples[part]),
+        })
+        .collect();
+    let shares = shares::shares(&held, &room, sites.len(), volume);
+    let on_surface: Vec<Closest<D>> = samples.iter().flatten().copied().collect();
+    let chosen = sites::choose(
+        problem,
         &depths,
-        sites.len(),
+        &pockets,
+        &sites,
+        &on_surface,
         &shares.regions,
-        problem.spacing,
-        problem.seed,
     );
     let mut particles = Particles::default();
-    for (&site, region) in sites.iter().zip(region_of) {
-        if let Some(region) = region {
-            let volume = shares.regions[region].particle_volume;
-            let body = (region < problem.bodies.len()).then_some(region as u16);
-            particles.push(site, Kind::Free, volume, body);
-        }
+    let kept =
+        (sites.iter().zip(chosen.region_of)).filter_map(|(&site, region)| Some((site, region?)));
+    for (site, region) in kept.chain(chosen.more) {
+        let volume = shares.regions[region as usize].particle_volume;
+        let body = (region as usize) < problem.bodies.len();
+        particles.push(site, Kind::Free, volume, body.then_some(region as u16));
     }
     for ((points, &volume), body) in samples.iter().zip(&shares.surface_volume).zip(0_u16..) {
         for point in points {
@@ -180,7 +216,64 @@ fn place<const D: usize>(
             particles.push(point.point, kind, volume, Some(body));
         }
     }
-    Seeds::surrounded(problem, particles, frozen_lattice, volume)
+    let seeds = Seeds::surrounded(problem, particles, frozen_lattice, volume);
+    (seeds, omitted)
+}
+
+/// The volume of every part without what lies in it, and of the fluid last; and the parts of less than `least` (half a
+/// particle) without a surface particle, whose volume whatever is around them has.
+fn rooms<const D: usize>(
+    parts: &Parts<D>,
+    samples: &[Vec<Closest<D>>],
+    least: f64,
+) -> (Vec<f64>, Vec<Omitted<D>>) {
+    let bodies = &parts.problem.bodies;
+    let inside = shares::directly_inside(bodies, parts.problem.spacing);
+    let mut room = parts.rooms();
+    let mut omitted = Vec::new();
+    for (region, within) in inside.iter().enumerate() {
+        for &part in within {
+            if samples[part].is_empty() && room[part] < least {
+                let surface = &bodies[part].surface;
+                omitted.push(Omitted {
+                    body: part,
+                    at: surface.closest(surface.bounds().center()).point,
+                    volume: room[part],
+                });
+                room[region] += std::mem::take(&mut room[part]);
+            }
+        }
+    }
+    (room, omitted)
+}
+
+/// How far beyond an exact surface it is asked who is there, in ∆s.
+const BEYOND_OVER_SPACING: f64 = 0.1;
+
+/// How much of a part's surface particles is in which region, in particles.
+fn reaches<const D: usize>(
+    problem: &Problem<D>,
+    pockets: &Pockets<D>,
+    part: usize,
+    points: &[Closest<D>],
+) -> Vec<(usize, f64)> {
+    let bodies = &problem.bodies;
+    let own = bodies[part].inner_share();
+    let mut reaches = vec![(part, own * points.len() as f64)];
+    if own == 1.0 {
+        return reaches;
+    }
+    let mut beyond = vec![0.0; bodies.len() + pockets.volume.len()];
+    for point in points {
+        let hit = bodies[part].surface.closest(point.point);
+        let place = point::add_scaled(hit.point, BEYOND_OVER_SPACING * problem.spacing, hit.normal);
+        let there = (0..bodies.len())
+            .find(|&b| b != part && bodies[b].surface.inside(place))
+            .unwrap_or_else(|| bodies.len() + pockets.at(problem, place).unwrap_or(0));
+        beyond[there] += 1.0 - own;
+    }
+    reaches.extend((beyond.into_iter().enumerate()).filter(|(_, count)| *count > 0.0));
+    reaches
 }
 
 /// Whether a body is packed without a particle surface where it is too thin for one. A deeper surface than usual is asked
@@ -189,15 +282,18 @@ fn is_usual<const D: usize>(body: &Body<D>) -> bool {
     body.inset_over_spacing <= DEFAULT_INSET_OVER_SPACING
 }
 
-/// A body's particle surface, `None` where it is so thin that it has none.
+/// A body's particle surface, `None` where it is so thin that it has none; the surface itself where that is asked for.
 fn inset<const D: usize>(
     problem: &Problem<D>,
     body: &Body<D>,
 ) -> Result<Option<Arc<dyn Surface<D>>>, PackingError> {
     let depth = body.inset_over_spacing * problem.spacing;
+    if depth == 0.0 {
+        return Ok(Some(body.surface.clone()));
+    }
     match body.surface.inset(depth) {
         Ok(inset) => Ok(Some(inset)),
-        Err(GeometryError::Vanished { .. }) if is_usual(body) => Ok(None),
+        Err(GeometryError::Vanished { .. }) => Ok(None),
         Err(source) => Err(PackingError::Surface {
             body: body.name.clone(),
             source,

@@ -1,12 +1,9 @@
-//! Who gets how many particles, and which lattice sites they are.
+//! Who gets how many particles, and how large they are.
 
 use sphpack_geometry::Surface;
 use sphpack_neighbors::point;
 
-use super::clashes::Clash;
-use crate::depths::Depths;
-use crate::packed::ParticleSurface;
-use crate::problem::{Body, Problem};
+use crate::problem::Body;
 
 /// The volumes on both sides of a true surface that its surface particles stand for: a layer ∆s thick around the
 /// particle surface.
@@ -17,6 +14,10 @@ struct Layer {
 }
 
 impl Layer {
+    fn whole(self) -> f64 {
+        self.inner + self.outer
+    }
+
     /// For an inset surface, exactly what a deeper inset of the body leaves. For one that is nearer to the true surface
     /// than ∆s/2, by the convention of all volume balances: its area times ∆s, in the parts that count as inside and
     /// outside. (Where the surface bends, less than that is inside: 1.1 % of the bunny at ∆s = 0.05. The sites beside
@@ -47,101 +48,129 @@ impl Layer {
 pub(crate) struct Share {
     /// Its lattice sites.
     pub(crate) sites: usize,
-    /// The volume of each of their particles: together they have what the layers of surface particles leave.
+    /// The volume of each of their particles: together they have what the surface particles leave.
     pub(crate) particle_volume: f64,
 }
 
 /// Who gets what.
 #[derive(Debug)]
 pub(super) struct Shares {
-    /// Each body's, in their order, and the fluid's last.
+    /// Each part's, in their order, and each pocket's of fluid behind.
     pub(super) regions: Vec<Share>,
-    /// The volume of a surface particle of each body: together they have their layer's.
+    /// The volume of a surface particle of each part.
     pub(super) surface_volume: Vec<f64>,
+}
+
+/// A part of a body and its particle surface.
+#[derive(Debug)]
+pub(super) struct Held<'a, const D: usize> {
+    pub(super) body: &'a Body<D>,
+    pub(super) surface: &'a dyn Surface<D>,
+    /// Particles on its surface.
+    pub(super) points: usize,
+    /// Points of it that were left to an earlier one: still part of its layer.
+    pub(super) removed: usize,
+    /// How much of its surface particles is in which region, in particles: its own, and what lies beyond an exact surface.
+    pub(super) reaches: Vec<(usize, f64)>,
 }
 
 /// Surface particles keep within this factor of a site's volume while there are others to take the rest.
 const VOLUME_LIMIT: f64 = 1.5;
 
-/// Shares out `sites` lattice sites, as many particles as there are to be in all; `on_surface` counts each body's
-/// surface particles. A region has the volume of its body, or of the box, without the bodies inside it that come
-/// before, and without the layers of surface particles. Where a region has no room for a particle of its own beside its
-/// surface particles, these have its whole volume; where it has neither, less than half a particle, its volume is left to
-/// what is around it. The sum of all particles' volumes is the box's.
+/// Rounds in which surface particles that have a region to themselves, and share others, find their volumes.
+const ROUNDS: usize = 30;
+
+/// Shares out the volume of every region, `room`: the parts' without what lies in them, and the pockets' of fluid behind; the
+/// sum is the box's. Every region has its own to the last digit: its lattice sites take what surface particles leave. A
+/// region with none has it all on its surface particles, one without these either (less than half a particle) nothing.
+/// `sites` are as many particles as there are to be in all.
 pub(super) fn shares<const D: usize>(
-    problem: &Problem<D>,
-    surfaces: &[ParticleSurface<D>],
-    on_surface: &[usize],
-    clashes: &[Clash],
+    held: &[Held<'_, D>],
+    room: &[f64],
     sites: usize,
     volume_per_site: f64,
 ) -> Shares {
-    let bodies = &problem.bodies;
+    let parts = held.len();
     let spacing = volume_per_site.powf(1.0 / D as f64);
-    let direct = directly_inside(bodies, problem.spacing);
-    let mut left = sites.saturating_sub(on_surface.iter().sum());
-    let mut regions: Vec<Share> = Vec::with_capacity(bodies.len() + 1);
-    let mut surface_volume = Vec::with_capacity(bodies.len());
-    // What each body takes from whatever is around it.
-    let mut taken: Vec<f64> = Vec::with_capacity(bodies.len());
-    for (number, body) in bodies.iter().enumerate() {
-        let within: f64 = direct[number].iter().map(|&a| taken[a]).sum();
-        let room = body.surface.volume() - within;
-        let clash = clashes[number];
-        // Points that were left to another body are still part of this one's layer.
-        let count = (on_surface[number] + clash.removed) as f64;
-        let layer = Layer::of(body, surfaces[number].surface.as_ref(), spacing);
-        let whole = layer.inner + layer.outer;
-        let inner_share = layer.inner / whole.max(f64::MIN_POSITIVE);
-        let usual = (whole / count.max(1.0)).clamp(
-            volume_per_site / VOLUME_LIMIT,
-            volume_per_site * VOLUME_LIMIT,
-        );
-        let rest = room - usual * count * inner_share;
-        let own = ((rest / volume_per_site).round().max(0.0) as usize).min(left);
-        left -= own;
-        // What the particles of the layer do not take is left to the sites within.
-        let (volume, particle_volume) = if own > 0 {
-            (usual, rest / own as f64)
-        } else if count * inner_share > 0.0 {
-            (room / (count * inner_share), volume_per_site)
-        } else {
-            (usual, volume_per_site)
-        };
-        let outer = volume * count * (1.0 - inner_share) - 0.5 * volume * clash.shared as f64;
-        taken.push(if own > 0 || count > 0.0 {
-            body.surface.volume() + outer.max(0.0)
-        } else {
-            within
-        });
-        surface_volume.push(volume);
-        regions.push(Share {
-            sites: own,
-            particle_volume,
-        });
+    let mut surface_volume: Vec<f64> = (held.iter())
+        .map(|held| {
+            // Points that were left to another body are still part of this one's layer.
+            let count = (held.points + held.removed) as f64;
+            let whole = Layer::of(held.body, held.surface, spacing).whole();
+            (whole / count.max(1.0)).clamp(
+                volume_per_site / VOLUME_LIMIT,
+                volume_per_site * VOLUME_LIMIT,
+            )
+        })
+        .collect();
+    // What every region has of whose surface particles.
+    let mut reached: Vec<Vec<(usize, f64)>> = vec![Vec::new(); room.len()];
+    for (part, held) in held.iter().enumerate() {
+        for &(region, count) in &held.reaches {
+            reached[region].push((part, count));
+        }
     }
-    let within: f64 = direct[bodies.len()].iter().map(|&a| taken[a]).sum();
-    let room = problem.domain.bounds.volume() - within;
-    let fit = (room / volume_per_site).round().max(0.0);
-    // All sites that are left, unless bodies have almost all the room: then there may be some too many.
-    let own = if left as f64 > VOLUME_LIMIT * fit {
-        fit as usize
-    } else {
-        left
+    let rest = |region: usize, surface_volume: &[f64]| {
+        let taken: f64 = (reached[region].iter())
+            .map(|&(part, count)| count * surface_volume[part])
+            .sum();
+        room[region] - taken
     };
-    regions.push(Share {
-        sites: own,
-        particle_volume: if own > 0 {
-            room / own as f64
-        } else {
-            volume_per_site
-        },
-    });
+    let fit = |region: usize, surface_volume: &[f64]| {
+        let fit = rest(region, surface_volume) / volume_per_site;
+        fit.round().max(0.0) as usize
+    };
+    // Parts without sites have all their volume on the surface; what that takes of others they have less.
+    let is_full: Vec<bool> = (0..parts)
+        .map(|part| fit(part, &surface_volume) == 0 && held[part].points > 0)
+        .collect();
+    for _ in 0..ROUNDS {
+        for part in (0..parts).filter(|&part| is_full[part]) {
+            let own = (held[part].reaches.iter())
+                .find(|(region, _)| *region == part)
+                .map_or(0.0, |&(_, count)| count);
+            if own > 0.0 {
+                let left = rest(part, &surface_volume) + own * surface_volume[part];
+                let least = volume_per_site * LEAST;
+                surface_volume[part] = (left / own).max(least);
+            }
+        }
+    }
+    let main = parts;
+    let mut own: Vec<usize> = (0..room.len())
+        .map(|region| {
+            if region < parts && is_full[region] {
+                0
+            } else {
+                fit(region, &surface_volume)
+            }
+        })
+        .collect();
+    // All sites that are left, unless bodies have almost all the room: then there may be some too many.
+    let others: usize = own.iter().sum::<usize>() - own[main];
+    let on_surface: usize = held.iter().map(|held| held.points).sum();
+    let left = sites.saturating_sub(others + on_surface);
+    if left as f64 <= VOLUME_LIMIT * own[main] as f64 {
+        own[main] = left;
+    }
+    let regions = (own.into_iter().enumerate())
+        .map(|(region, sites)| Share {
+            sites,
+            particle_volume: if sites > 0 {
+                rest(region, &surface_volume) / sites as f64
+            } else {
+                volume_per_site
+            },
+        })
+        .collect();
     Shares {
         regions,
         surface_volume,
     }
 }
+
+/// No surface particle has less than this part of a site's volume.
+const LEAST: f64 = 0.1;
 
 /// For every body, and for the fluid last, the bodies that come before and lie in it, without those inside another of
 /// them.
@@ -173,44 +202,4 @@ fn is_inside<const D: usize>(inner: &dyn Surface<D>, outer: &dyn Surface<D>, spa
     let at = inner.closest(inner.bounds().center());
     let behind = point::add_scaled(at.point, -BEHIND_OVER_SPACING * spacing, at.normal);
     outer.inside(behind)
-}
-
-/// The region of every site that is kept, `None` for those left out: in every region the deepest are kept. Fewer than
-/// asked for only where there are not enough sites. Depths are compared to within 10⁻⁹ ∆s, so that neither the unit of
-/// length nor the place of the origin decides between equals.
-pub(crate) fn choose(
-    depths: &Depths,
-    sites: usize,
-    regions: &[Share],
-    spacing: f64,
-    seed: u64,
-) -> Vec<Option<usize>> {
-    let mut region_of = vec![None; sites];
-    for (region, share) in regions.iter().enumerate() {
-        let mut candidates: Vec<(f64, u64, usize)> = (0..sites)
-            .filter(|&i| region_of[i].is_none())
-            .map(|i| {
-                let depth = (depths.within(region, i) / spacing * 1e9).round();
-                (depth, scrambled(i as u64 ^ seed), i)
-            })
-            .collect();
-        // Deepest first; equals in no order that favours a side.
-        let order =
-            |a: &(f64, u64, usize), b: &(f64, u64, usize)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
-        if share.sites < candidates.len() {
-            candidates.select_nth_unstable_by(share.sites, order);
-            candidates.truncate(share.sites);
-        }
-        for (_, _, i) in candidates {
-            region_of[i] = Some(region);
-        }
-    }
-    region_of
-}
-
-/// A one-to-one scramble of 64 bits (the finaliser of SplitMix64).
-fn scrambled(x: u64) -> u64 {
-    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    x ^ (x >> 31)
 }

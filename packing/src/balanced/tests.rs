@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use sphpack_geometry::{Ball, Cuboid, GeometryError, Outline, Similarity};
 use sphpack_neighbors::{Domain, point};
 
+use crate::method::Method;
 use crate::minimise::Finish;
 use crate::{
     Balanced, Body, Kind, MinimiserKind, Packed, Problem, Settling, Silent, StopReason,

@@ -80,9 +80,12 @@ const EARLY_END: f64 = 0.3;
 const NOTE_EVERY: usize = 10;
 
 /// Nothing goes on any more where within [`PATIENCE`] evaluations the largest force has found no new low and the
-/// energy per particle has fallen by less than [`STANDSTILL`].
+/// energy per particle has fallen by less than [`STANDSTILL`] times that force (or 10⁻³, if it is smaller). Where room is short
+/// a few particles with large forces creep for ever: between the walls of two boxes 10,661 evaluations with forces of 0.14,
+/// while the energy fell by 10⁻⁶ in every 250.
 const PATIENCE: usize = 200;
-const STANDSTILL: f64 = 1e-8;
+const STANDSTILL: f64 = 1e-5;
+const SMALL_FORCE: f64 = 1e-3;
 
 impl Settling {
     /// The levelling that pays at an h/∆s: 10 from 1.2 on, less below, as the fourth power. With a shorter kernel every
@@ -187,7 +190,8 @@ impl Settling {
             if residual < lowest {
                 (lowest, lowest_at, energy_then) = (residual, evaluations, landscape.energy());
             } else if evaluations > lowest_at + PATIENCE {
-                if energy_then - landscape.energy() < STANDSTILL * landscape.len() as f64 {
+                let little = STANDSTILL * lowest.max(SMALL_FORCE) * landscape.len() as f64;
+                if energy_then - landscape.energy() < little {
                     break StopReason::Stagnated;
                 }
                 (lowest_at, energy_then) = (evaluations, landscape.energy());

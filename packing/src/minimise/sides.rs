@@ -7,8 +7,9 @@ use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 
 /// No free particle comes nearer to a surface than this, in ∆s, if it was not nearer before: from within, and from
-/// outside, where an inset surface is ∆s/2 behind the true one. Those of the first layer are 0.8 ∆s away.
-const FLOOR: [f64; 2] = [0.4, 0.45];
+/// outside, where an inset surface is ∆s/2 behind the true one, so that nobody crosses that. Those of the first layer are
+/// 0.8 ∆s away.
+const FLOOR: [f64; 2] = [0.4, 0.505];
 
 /// A particle this near to its floor, in parts of that, lies on it. Without some room rounding says who does (±10⁻¹⁷ on a
 /// flat face, and on one that bends whoever slides is off by s²/2R), and the reaction of the surface comes and goes in

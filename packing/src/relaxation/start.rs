@@ -2,7 +2,8 @@
 
 use sphpack_geometry::GeometryError;
 
-use crate::balanced::shares::{Share, choose, directly_inside};
+use crate::balanced::shares::{Share, directly_inside};
+use crate::balanced::sites::deepest;
 use crate::depths::Depths;
 use crate::lattice::{Filling, Lattice};
 use crate::packed::ParticleSurface;
@@ -123,18 +124,10 @@ impl<const D: usize> Sites<D> {
 
     /// The deepest sites of a region, the bodies' or, last, the fluid's.
     fn deepest(&self, problem: &Problem<D>, region: usize, count: usize) -> Vec<[f64; D]> {
-        let none = Share {
-            sites: 0,
-            particle_volume: self.volume,
-        };
-        let mut regions = vec![none; problem.bodies.len() + 1];
-        regions[region].sites = count;
-        let (spacing, seed) = (problem.spacing, problem.seed);
-        let region_of = choose(&self.depths, self.sites.len(), &regions, spacing, seed);
-        (self.sites.iter().zip(region_of))
-            .filter(|(_, chosen)| chosen.is_some())
-            .map(|(&site, _)| site)
-            .collect()
+        let depths = (0..self.sites.len()).map(|i| (i, self.depths.within(region, i)));
+        let mut kept = deepest(depths, count, problem.spacing, problem.seed);
+        kept.sort_unstable();
+        kept.into_iter().map(|i| self.sites[i]).collect()
     }
 }
 
