@@ -122,7 +122,7 @@ impl Complex {
         );
         landscape.add(self.solids(problem, is_solid, &settling));
         landscape.calm(Calm::of(first_layer, self.calm));
-        landscape.keep_sides();
+        landscape.keep_sides(&problem.bodies);
         let reason = settling.run(&mut landscape, course, fluid_gamma, true);
         landscape
             .added()

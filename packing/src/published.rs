@@ -6,7 +6,6 @@ use sphpack_geometry::{Ball, Outline};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
-use crate::method::Method;
 use crate::{
     Agitated, Clipped, Complex, Coupled, Hybrid, Kind, Lattice, Observer, Packed, PackingError,
     Ppa, Problem, Progress, Relaxation, Silent, Standard, StopReason, Triangulated,
@@ -29,13 +28,13 @@ const LEVELLED: Complex = Complex {
 /// Each with limits that a test can afford.
 fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
     vec![
-        ("clipped", |p, o| Clipped.pack(p, o)),
+        ("clipped", |p, o| Clipped.pack_in(p, o)),
         ("hybrid", |p, o| {
             Hybrid {
                 velocity_tolerance: 1e-3,
                 ..Hybrid::default()
             }
-            .pack(p, o)
+            .pack_in(p, o)
         }),
         ("coupled", |p, o| {
             Coupled {
@@ -44,17 +43,17 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
                 max_iterations: 1000,
                 ..Coupled::default()
             }
-            .pack(p, o)
+            .pack_in(p, o)
         }),
-        ("relaxation", |p, o| SHORT.pack(p, o)),
-        ("complex", |p, o| LEVELLED.pack(p, o)),
+        ("relaxation", |p, o| SHORT.pack_in(p, o)),
+        ("complex", |p, o| LEVELLED.pack_in(p, o)),
         ("agitated", |p, o| {
             Agitated {
                 revolution: 90.0,
                 max_iterations: if D == 2 { 5000 } else { 500 },
                 ..Agitated::default()
             }
-            .pack(p, o)
+            .pack_in(p, o)
         }),
         ("ppa", |p, o| {
             Ppa {
@@ -62,7 +61,7 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
                 energy_tolerance: 1e-6,
                 ..Ppa::default()
             }
-            .pack(p, o)
+            .pack_in(p, o)
         }),
     ]
 }
@@ -74,9 +73,9 @@ fn plane_methods() -> Vec<(&'static str, Pack<2>)> {
             velocity_tolerance: 1e-3,
             ..Standard::default()
         }
-        .pack(p, o)
+        .pack_in(p, o)
     }));
-    all.push(("triangulated", |p, o| Triangulated.pack(p, o)));
+    all.push(("triangulated", |p, o| Triangulated.pack_in(p, o)));
     all
 }
 
@@ -194,7 +193,7 @@ fn every_method_stops_when_told_and_copes_without_bodies() {
 
 #[test]
 fn layers_are_for_the_plane() {
-    let refused = Standard::default().pack(&ball(), &mut Silent);
+    let refused = Standard::default().pack_in(&ball(), &mut Silent);
     assert!(matches!(refused, Err(PackingError::OnlyPlane { .. })));
 }
 
@@ -207,7 +206,7 @@ fn a_tank_keeps_its_fluid() {
         containers: vec![true],
         ..Ppa::default()
     };
-    let packed = ppa.pack(&problem, &mut Silent).expect("a sound problem");
+    let packed = ppa.pack_in(&problem, &mut Silent).expect("a sound problem");
     assert_eq!(packed.stop_reason, StopReason::Converged);
     assert!(packed.iterations <= 4000, "{}", packed.iterations);
     let particles = &packed.particles;
@@ -243,7 +242,7 @@ fn a_tank_with_bends_comes_to_rest() {
         containers: vec![true],
         ..Ppa::default()
     };
-    let packed = ppa.pack(&problem, &mut Silent).expect("a sound problem");
+    let packed = ppa.pack_in(&problem, &mut Silent).expect("a sound problem");
     assert_eq!(packed.stop_reason, StopReason::Converged);
     let quality = packed.quality(&packed.fields(problem.kernel, problem.h_over_spacing));
     let closest = quality.closest_pair_over_spacing;
@@ -261,7 +260,9 @@ fn triangles_carry_the_area_of_their_body() {
         (box_of().body("ring", ring), true),
         (box_of().body("disc", disc), false),
     ] {
-        let packed = Triangulated.pack(&problem, &mut Silent).expect("triangles");
+        let packed = Triangulated
+            .pack_in(&problem, &mut Silent)
+            .expect("triangles");
         let body = problem.bodies[0].surface.as_ref();
         let mine: Vec<usize> = (0..packed.particles.len())
             .filter(|&i| packed.particles.body[i] == Some(0))
@@ -325,13 +326,13 @@ fn complex_relaxation_brings_the_first_layer_to_rest() {
         ..Relaxation::default()
     };
     let layers = |problem: &Problem<2>| {
-        let apart = relaxation.pack(problem, &mut Silent).expect("apart");
+        let apart = relaxation.pack_in(problem, &mut Silent).expect("apart");
         let complex = Complex {
             relaxation,
             levelling: 0.0,
             ..LEVELLED
         };
-        let complex = complex.pack(problem, &mut Silent).expect("together");
+        let complex = complex.pack_in(problem, &mut Silent).expect("together");
         let layers = (first_layer(problem, &apart), first_layer(problem, &complex));
         println!("{layers:?}");
         layers
@@ -351,7 +352,7 @@ fn complex_relaxation_brings_the_first_layer_to_rest() {
 fn relaxed_bodies_keep_their_volume_and_their_places_apart() {
     let problem = zigzag(0.05);
     let packed = LEVELLED
-        .pack(&problem, &mut Silent)
+        .pack_in(&problem, &mut Silent)
         .expect("a sound problem");
     let quality = packed.quality(&packed.fields(KernelKind::Quintic, 1.2));
     let particles = &packed.particles;
@@ -383,7 +384,7 @@ fn levelling_keeps_each_side_within_the_papers_range_by_its_own_h() {
         let problem = zigzag(spacing);
         let sides = |complex: Complex| {
             let packed = complex
-                .pack(&problem, &mut Silent)
+                .pack_in(&problem, &mut Silent)
                 .expect("a sound problem");
             [off(&packed, 1.05, false), off(&packed, 1.3, true)]
         };
@@ -408,9 +409,9 @@ fn surface_particles_may_sit_on_the_surface_or_near_it() {
             let quality = packed.quality(&packed.fields(KernelKind::Quintic, 1.2));
             quality.density.linf
         };
-        let off = linf(SHORT.pack(&problem, &mut Silent));
+        let off = linf(SHORT.pack_in(&problem, &mut Silent));
         assert!(off < apart, "{inset}: {off}");
-        let off = linf(LEVELLED.pack(&problem, &mut Silent));
+        let off = linf(LEVELLED.pack_in(&problem, &mut Silent));
         assert!(off < levelled, "{inset}: {off}");
     }
 }

@@ -1,10 +1,11 @@
 //! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | reproduce-paper | balanced | compare | lattices |
-//! speed | round-trip`.
+//! speed | bodies | round-trip`.
 
 mod accelerations;
 mod agitators;
 mod balanced;
 mod balanced_rows;
+mod bodies;
 mod chart;
 mod ci;
 mod compare;
@@ -61,6 +62,9 @@ cargo xtask TASK
   speed [--quick] [--only SCENE] [--data DIR] [--write]
                               the whole job, how it grows, the pair loop against the machine; --write also writes
                               docs/speed.md
+  bodies [--quick] [--only NAME] [--write]
+                              bodies in parts at 40 spacings each, judged part by part; --write also writes
+                              docs/bodies.md
   round-trip [--python PROGRAM | --install]
                               particle files of every format, read by numpy, pyvista and meshio;
                               --install puts these into target/round-trip/venv first
@@ -84,6 +88,7 @@ fn main() -> ExitCode {
         Some("compare") => reproduce::Settings::parse(rest).and_then(|s| compare::run(&s)),
         Some("lattices") => reproduce::Settings::parse(rest).and_then(|s| lattices::run(&s)),
         Some("speed") => reproduce::Settings::parse(rest).and_then(|s| speed::run(&s)),
+        Some("bodies") => bodies::Settings::parse(rest).and_then(|s| bodies::run(&s)),
         Some("round-trip") => round_trip::Settings::parse(rest).and_then(|s| round_trip::run(&s)),
         Some("help" | "--help" | "-h") => {
             print!("{USAGE}");

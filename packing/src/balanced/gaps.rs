@@ -19,9 +19,6 @@ const LOOK_OVER_SPACING: [f64; 3] = [0.75, 1.0, 1.25];
 /// A particle is only moved into a gap that gives it so much more room than it has, in ∆s.
 const GAIN_OVER_SPACING: f64 = 0.15;
 
-/// Moves at most, per surface particle.
-const MOST_MOVES: usize = 4;
-
 /// Moves the most crowded free particles of a region into its widest gaps beside surfaces, while that gives them more room.
 pub(super) fn close<const D: usize>(
     problem: &Problem<D>,
@@ -75,31 +72,40 @@ pub(super) fn close<const D: usize>(
     }
     // The widest first.
     gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let most = MOST_MOVES * on_surface.len();
-    for (_, gap, region) in gaps.into_iter().take(most) {
+    let mut crowded = cells.crowded((GAP_OVER_SPACING - GAIN_OVER_SPACING) * spacing);
+    for (_, gap, region) in gaps {
         let wide = match cells.room(gap, 2.0 * spacing, None) {
             Some(room) if room < GAP_OVER_SPACING * spacing => continue,
             room => room.unwrap_or(2.0 * spacing),
         };
-        let Some((room, place, who)) = cells.most_crowded(gap, region) else {
+        let Some(crowd) = crowded.get_mut(&region) else {
             continue;
         };
-        if wide < room + GAIN_OVER_SPACING * spacing {
-            continue;
-        }
-        cells.remove(place, who);
-        match who {
-            Who::Site(site, region) => {
-                chosen.region_of[site as usize] = None;
-                let number = chosen.more.len() as u32;
-                chosen.more.push((gap, region));
-                cells.add(gap, Who::More(number, region));
+        // Who stood too near to one that has gone may have room by now.
+        while let Some((place, who)) = crowd.pop() {
+            let room = cells.room(place, spacing, Some(who)).unwrap_or(spacing);
+            if room + GAIN_OVER_SPACING * spacing > GAP_OVER_SPACING * spacing {
+                continue;
             }
-            Who::More(number, region) => {
-                chosen.more[number as usize].0 = gap;
-                cells.add(gap, Who::More(number, region));
+            if room + GAIN_OVER_SPACING * spacing > wide {
+                crowd.push((place, who));
+                break;
             }
-            Who::Surface => {}
+            cells.remove(place, who);
+            let number = match who {
+                Who::Site(site, _) => {
+                    chosen.region_of[site as usize] = None;
+                    chosen.more.push((gap, region));
+                    chosen.more.len() - 1
+                }
+                Who::More(number, _) => {
+                    chosen.more[number as usize].0 = gap;
+                    number as usize
+                }
+                Who::Surface => break,
+            };
+            cells.add(gap, Who::More(number as u32, region));
+            break;
         }
     }
 }
@@ -114,12 +120,6 @@ enum Who {
     More(u32, u32),
 }
 
-impl Who {
-    fn is_of(self, region: u32) -> bool {
-        matches!(self, Self::Site(_, own) | Self::More(_, own) if own == region)
-    }
-}
-
 /// What stands in a cell.
 type Standing<const D: usize> = Vec<([f64; D], Who)>;
 
@@ -129,9 +129,6 @@ struct Cells<const D: usize> {
     edge: f64,
     cells: HashMap<[i32; D], Standing<D>>,
 }
-
-/// Cells to each side in which a crowded particle is looked for.
-const WAY: i32 = 12;
 
 impl<const D: usize> Cells<D> {
     fn new(edge: f64) -> Self {
@@ -183,19 +180,27 @@ impl<const D: usize> Cells<D> {
             .reduce(f64::min)
     }
 
-    /// The free particle of a region, not too far from a place, that has the least room.
-    fn most_crowded(&self, place: [f64; D], region: u32) -> Option<(f64, [f64; D], Who)> {
-        let mut worst: Option<(f64, [f64; D], Who)> = None;
-        for cell in Self::around(self.cell(place), WAY) {
-            for &(other, who) in self.cells.get(&cell).into_iter().flatten() {
-                if who.is_of(region) {
-                    let room = self.room(other, self.edge, Some(who)).unwrap_or(self.edge);
-                    if worst.is_none_or(|(least, _, _)| room < least) {
-                        worst = Some((room, other, who));
-                    }
-                }
+    /// The free particles with less room than `least`, by regions, those with the least last.
+    fn crowded(&self, least: f64) -> HashMap<u32, Standing<D>> {
+        let mut all: Vec<(f64, u64, [f64; D], Who)> = Vec::new();
+        for &(place, who) in self.cells.values().flatten() {
+            let number = match who {
+                Who::Surface => continue,
+                Who::Site(number, _) => u64::from(number),
+                Who::More(number, _) => u64::from(number) + (1 << 32),
+            };
+            if let Some(room) = self.room(place, least, Some(who)) {
+                all.push((room, number, place, who));
             }
         }
-        worst
+        // The order of the cells is nobody's; numbers decide between equals.
+        all.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut crowded: HashMap<u32, Standing<D>> = HashMap::new();
+        for (_, _, place, who) in all {
+            if let Who::Site(_, region) | Who::More(_, region) = who {
+                crowded.entry(region).or_default().push((place, who));
+            }
+        }
+        crowded
     }
 }

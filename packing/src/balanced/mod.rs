@@ -32,7 +32,7 @@ use band::Part;
 use clashes::Clash;
 use parts::Parts;
 use pockets::Pockets;
-use shares::Held;
+use shares::{Held, Share};
 
 /// The balanced method.
 ///
@@ -129,7 +129,7 @@ impl Balanced {
                 problem.spacing,
                 problem.support(),
             );
-            landscape.keep_sides();
+            landscape.keep_sides(&problem.bodies);
             stop_reason = settling.run(&mut landscape, &mut course, perfect_gamma, round > 0);
             forces = landscape.into_forces();
             part.write_back(&mut particles);
@@ -189,16 +189,26 @@ fn place<const D: usize>(
             reaches: reaches(problem, &pockets, part, &samples[part]),
         })
         .collect();
-    let shares = shares::shares(&held, &room, sites.len(), volume);
     let on_surface: Vec<Closest<D>> = samples.iter().flatten().copied().collect();
-    let chosen = sites::choose(
-        problem,
-        &depths,
-        &pockets,
-        &sites,
-        &on_surface,
-        &shares.regions,
-    );
+    let choose =
+        |regions: &[Share]| sites::choose(problem, &depths, &pockets, &sites, &on_surface, regions);
+    let all = sites.len();
+    let mut shares = shares::shares(&held, &room, &vec![usize::MAX; room.len()], all, volume);
+    let mut chosen = choose(&shares.regions);
+    let is_short = |region: usize, share: &Share| chosen.count[region] < share.sites;
+    if (shares.regions.iter().enumerate()).any(|(region, share)| is_short(region, share)) {
+        let most: Vec<usize> = (shares.regions.iter().enumerate())
+            .map(|(region, share)| {
+                if is_short(region, share) {
+                    chosen.count[region]
+                } else {
+                    usize::MAX
+                }
+            })
+            .collect();
+        shares = shares::shares(&held, &room, &most, all, volume);
+        chosen = choose(&shares.regions);
+    }
     let mut particles = Particles::default();
     let kept =
         (sites.iter().zip(chosen.region_of)).filter_map(|(&site, region)| Some((site, region?)));

@@ -80,13 +80,17 @@ const VOLUME_LIMIT: f64 = 1.5;
 /// Rounds in which surface particles that have a region to themselves, and share others, find their volumes.
 const ROUNDS: usize = 30;
 
+/// No surface particle has less than this part of a site's volume.
+const LEAST: f64 = 0.1;
+
 /// Shares out the volume of every region, `room`: the parts' without what lies in them, and the pockets' of fluid behind; the
 /// sum is the box's. Every region has its own to the last digit: its lattice sites take what surface particles leave. A
-/// region with none has it all on its surface particles, one without these either (less than half a particle) nothing.
-/// `sites` are as many particles as there are to be in all.
+/// part with none, or with as many as it has places for (`most`), shares it evenly with its surface particles; one without
+/// either (less than half a particle) has nothing. `sites` are as many particles as there are to be in all.
 pub(super) fn shares<const D: usize>(
     held: &[Held<'_, D>],
     room: &[f64],
+    most: &[usize],
     sites: usize,
     volume_per_site: f64,
 ) -> Shares {
@@ -120,19 +124,26 @@ pub(super) fn shares<const D: usize>(
         let fit = rest(region, surface_volume) / volume_per_site;
         fit.round().max(0.0) as usize
     };
-    // Parts without sites have all their volume on the surface; what that takes of others they have less.
+    // Parts that have no place for all share their volume evenly; what that takes of others they have less.
     let is_full: Vec<bool> = (0..parts)
-        .map(|part| fit(part, &surface_volume) == 0 && held[part].points > 0)
+        .map(|part| {
+            let fit = fit(part, &surface_volume);
+            (fit == 0 || fit > most[part]) && held[part].points > 0
+        })
+        .collect();
+    let own: Vec<usize> = (0..parts)
+        .map(|part| fit(part, &surface_volume).min(most[part]))
         .collect();
     for _ in 0..ROUNDS {
         for part in (0..parts).filter(|&part| is_full[part]) {
-            let own = (held[part].reaches.iter())
+            let count = (held[part].reaches.iter())
                 .find(|(region, _)| *region == part)
                 .map_or(0.0, |&(_, count)| count);
-            if own > 0.0 {
-                let left = rest(part, &surface_volume) + own * surface_volume[part];
+            let all = count + own[part] as f64;
+            if count > 0.0 {
+                let left = rest(part, &surface_volume) + count * surface_volume[part];
                 let least = volume_per_site * LEAST;
-                surface_volume[part] = (left / own).max(least);
+                surface_volume[part] = (left / all).max(least);
             }
         }
     }
@@ -140,9 +151,9 @@ pub(super) fn shares<const D: usize>(
     let mut own: Vec<usize> = (0..room.len())
         .map(|region| {
             if region < parts && is_full[region] {
-                0
+                own[region]
             } else {
-                fit(region, &surface_volume)
+                fit(region, &surface_volume).min(most[region])
             }
         })
         .collect();
@@ -151,7 +162,7 @@ pub(super) fn shares<const D: usize>(
     let on_surface: usize = held.iter().map(|held| held.points).sum();
     let left = sites.saturating_sub(others + on_surface);
     if left as f64 <= VOLUME_LIMIT * own[main] as f64 {
-        own[main] = left;
+        own[main] = left.min(most[main]);
     }
     let regions = (own.into_iter().enumerate())
         .map(|(region, sites)| Share {
@@ -169,16 +180,16 @@ pub(super) fn shares<const D: usize>(
     }
 }
 
-/// No surface particle has less than this part of a site's volume.
-const LEAST: f64 = 0.1;
-
 /// For every body, and for the fluid last, the bodies that come before and lie in it, without those inside another of
 /// them.
 pub(crate) fn directly_inside<const D: usize>(bodies: &[Body<D>], spacing: f64) -> Vec<Vec<usize>> {
     let mut inside: Vec<Vec<usize>> = (0..bodies.len())
         .map(|b| {
             let outer = bodies[b].surface.as_ref();
+            let around = outer.bounds().grown(BEHIND_OVER_SPACING * spacing);
             (0..b)
+                // Most are elsewhere.
+                .filter(|&a| around.contains_box(&bodies[a].surface.bounds()))
                 .filter(|&a| is_inside(bodies[a].surface.as_ref(), outer, spacing))
                 .collect()
         })

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use sphpack_geometry::Closest;
-use sphpack_neighbors::{Bounds, KdTree, point};
+use sphpack_neighbors::{KdTree, point};
 
 use super::gaps;
 use super::pockets::Pockets;
@@ -18,8 +18,17 @@ const BEYOND_OVER_SPACING: f64 = 1.0;
 /// A site nearer to the particle surface than this, in ∆s, is one too many: the settling would push it through.
 const CLEAR_OVER_SPACING: f64 = 0.3;
 
-/// Places per ∆s among which those are found that have the most room.
-const PLACES: i32 = 4;
+/// A site of a body is at least so deep in it, in ∆s.
+const ABOVE_OVER_SPACING: f64 = 0.4;
+
+/// Places per ∆s among which those are found that have the most room, in the plane and in space.
+const PLACES: [i32; 2] = [4, 2];
+
+/// Places are looked for within this of surface particles, in ∆s.
+const BESIDE_OVER_SPACING: f64 = 1.5;
+
+/// A place nearer than this to another particle, in ∆s, is none.
+const ROOM_OVER_SPACING: f64 = 0.6;
 
 /// What is chosen.
 #[derive(Debug)]
@@ -28,6 +37,8 @@ pub(super) struct Chosen<const D: usize> {
     pub(super) region_of: Vec<Option<u32>>,
     /// More places, and their regions.
     pub(super) more: Vec<([f64; D], u32)>,
+    /// How many every region has; fewer than its share where there is no room.
+    pub(super) count: Vec<usize>,
 }
 
 /// For every region (the parts, then the pockets) as many places as its share says: its deepest sites, and in place of those
@@ -71,26 +82,27 @@ pub(super) fn choose<const D: usize>(
             region_of[i] = Some(region as u32);
         }
     }
+    let mut count: Vec<usize> = regions.iter().map(|share| share.sites).collect();
     let mut more = Vec::new();
     if !lacking.is_empty() {
         let mut taken: Vec<[f64; D]> = on_surface.iter().map(|hit| hit.point).collect();
-        taken.extend(
-            (0..sites.len())
-                .filter(|&i| region_of[i].is_some())
-                .map(|i| sites[i]),
-        );
-        for (region, count) in lacking {
-            let own: Vec<[f64; D]> = (of_region[region as usize].iter())
-                .map(|&(i, _)| sites[i as usize])
-                .collect();
-            let places = between(problem, pockets, region as usize, &own);
-            for place in roomiest(&places, &taken, count) {
+        let kept = (0..sites.len()).filter(|&i| region_of[i].is_some());
+        taken.extend(kept.map(|i| sites[i]));
+        for (region, lack) in lacking {
+            let places = between(problem, pockets, region as usize, on_surface);
+            let found = roomiest(&places, &taken, lack, ROOM_OVER_SPACING * problem.spacing);
+            count[region as usize] -= lack - found.len();
+            for place in found {
                 taken.push(place);
                 more.push((place, region));
             }
         }
     }
-    let mut chosen = Chosen { region_of, more };
+    let mut chosen = Chosen {
+        region_of,
+        more,
+        count,
+    };
     gaps::close(problem, pockets, sites, on_surface, &mut chosen);
     chosen
 }
@@ -108,39 +120,44 @@ fn is_clear<const D: usize>(
         match region.cmp(&part) {
             // Outside of every part that comes before, of all of them in the fluid.
             Ordering::Greater => phi + inset >= least,
-            Ordering::Equal => -phi - inset >= least,
+            // Beneath its particle surface; or above one that is deep, clear of what is outside too.
+            Ordering::Equal => {
+                let above = phi <= -ABOVE_OVER_SPACING * problem.spacing && phi + inset >= least;
+                -phi - inset >= least || above
+            }
             // Parts around it are none of its affair.
             Ordering::Less => phi <= 0.0 || phi + inset >= least,
         }
     })
 }
 
-/// Places between and beside the sites of a region, all in it and as clear of its surface as any are.
+/// Places beside the surface particles of a region, and around its middle where it has none, all in it and clear of its
+/// surface.
 fn between<const D: usize>(
     problem: &Problem<D>,
     pockets: &Pockets<D>,
     region: usize,
-    sites: &[[f64; D]],
+    on_surface: &[Closest<D>],
 ) -> Vec<[f64; D]> {
     let parts = problem.bodies.len();
-    let step = problem.spacing / f64::from(PLACES);
+    let step = problem.spacing / f64::from(PLACES[D.saturating_sub(2).min(1)]);
     let bounds = problem.domain.bounds;
-    // Cells of a grid that a site, or the middle of a part without one, is within ∆s of.
-    let reach = PLACES + 1;
-    let mut cells: Vec<[i32; D]> = Vec::new();
-    let from: Vec<[f64; D]> = match problem.bodies.get(region) {
-        Some(part) if sites.is_empty() => vec![part.surface.bounds().center()],
-        _ => sites.to_vec(),
+    let reach = (BESIDE_OVER_SPACING * problem.spacing / step).ceil() as i32;
+    let around = match problem.bodies.get(region) {
+        Some(part) => part.surface.bounds().grown(0.01 * problem.spacing),
+        None => bounds,
     };
-    for p in from {
+    let beside = (on_surface.iter().map(|hit| hit.point)).filter(|&p| around.contains(p));
+    let mut cells: Vec<[i32; D]> = Vec::new();
+    for p in beside.chain([around.center()]) {
         let middle: [i32; D] =
             std::array::from_fn(|k| ((p[k] - bounds.min[k]) / step).round() as i32);
-        let around = (2 * reach + 1) as usize;
-        for number in 0..around.pow(D as u32) {
+        let width = (2 * reach + 1) as usize;
+        for number in 0..width.pow(D as u32) {
             let mut rest = number;
             cells.push(std::array::from_fn(|k| {
-                let i = (rest % around) as i32 - reach;
-                rest /= around;
+                let i = (rest % width) as i32 - reach;
+                rest /= width;
                 middle[k] + i
             }));
         }
@@ -149,21 +166,16 @@ fn between<const D: usize>(
     cells.dedup();
     let places: Vec<[f64; D]> = (cells.into_iter())
         .map(|cell| std::array::from_fn(|k| bounds.min[k] + step * f64::from(cell[k])))
-        .filter(|&p| bounds.contains(p))
+        .filter(|&p| bounds.contains(p) && around.contains(p))
         .collect();
-    let around = Bounds::of(&places);
     let near = 2.0 * problem.spacing;
-    let depths = Depths::of(&problem.bodies, around, problem.spacing, near, &places);
-    let is_own = |i: usize| {
-        let depth = depths.within(region.min(parts), i);
-        depth > 0.0 && (region < parts || pockets.at(problem, places[i]) == Some(region - parts))
-    };
-    let own: Vec<usize> = (0..places.len()).filter(|&i| is_own(i)).collect();
-    let clear: Vec<usize> = (own.iter().copied())
-        .filter(|&i| is_clear(problem, &depths, region.min(parts), i))
-        .collect();
-    let best = if clear.is_empty() { own } else { clear };
-    best.into_iter().map(|i| places[i]).collect()
+    let depths = Depths::of(&problem.bodies, bounds, problem.spacing, near, &places);
+    let of_bodies = region.min(parts);
+    (0..places.len())
+        .filter(|&i| depths.within(of_bodies, i) > 0.0 && is_clear(problem, &depths, of_bodies, i))
+        .filter(|&i| region < parts || pockets.at(problem, places[i]) == Some(region - parts))
+        .map(|i| places[i])
+        .collect()
 }
 
 /// A place, and how far it is from what was taken when that was last looked at.
@@ -189,11 +201,12 @@ impl PartialOrd for Room {
     }
 }
 
-/// One after another the `count` places that are farthest from all that are taken.
+/// One after another, at most `count`, the places that are farthest from all that are taken, none nearer than `least`.
 fn roomiest<const D: usize>(
     places: &[[f64; D]],
     taken: &[[f64; D]],
     count: usize,
+    least: f64,
 ) -> Vec<[f64; D]> {
     let tree = KdTree::new(taken).ok();
     let mut heap: BinaryHeap<Room> = (places.iter().enumerate())
@@ -208,6 +221,7 @@ fn roomiest<const D: usize>(
     let mut chosen: Vec<[f64; D]> = Vec::new();
     while chosen.len() < count
         && let Some(room) = heap.pop()
+        && room.distance >= least
     {
         if room.known == chosen.len() {
             chosen.push(places[room.place]);

@@ -6,7 +6,6 @@ use proptest::prelude::*;
 use sphpack_geometry::{Ball, Cuboid, GeometryError, Outline, Similarity};
 use sphpack_neighbors::{Domain, point};
 
-use crate::method::Method;
 use crate::minimise::Finish;
 use crate::{
     Balanced, Body, Kind, MinimiserKind, Packed, Problem, Settling, Silent, StopReason,
@@ -15,7 +14,7 @@ use crate::{
 
 fn pack<const D: usize>(problem: &Problem<D>) -> Packed<D> {
     Balanced::default()
-        .pack(problem, &mut Silent)
+        .pack_in(problem, &mut Silent)
         .expect("a sound problem")
 }
 
@@ -249,7 +248,7 @@ fn a_consistent_finish_leaves_no_force_and_every_minimiser_arrives() {
             settling,
             ..Balanced::default()
         }
-        .pack(&problem, &mut Silent)
+        .pack_in(&problem, &mut Silent)
         .expect("a sound problem");
         assert_eq!(packed.stop_reason, StopReason::Converged, "{minimiser:?}");
         let fields = packed.fields(problem.kernel, problem.h_over_spacing);

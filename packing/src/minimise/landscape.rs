@@ -13,6 +13,7 @@ use crate::forces::{Forces, Levelling};
 use crate::on_surface::OnSurface;
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
+use crate::problem::Body;
 use crate::repulsion::Repulsion;
 
 /// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R, and that of a [`Levelling`], over the places of the mobile
@@ -25,6 +26,7 @@ use crate::repulsion::Repulsion;
 pub struct Landscape<'a, const D: usize> {
     particles: &'a mut Particles<D>,
     surfaces: &'a [ParticleSurface<D>],
+    bodies: &'a [Body<D>],
     forces: Forces<D>,
     added: Option<Forces<D>>,
     calm: Option<Calm<D>>,
@@ -64,6 +66,7 @@ impl<'a, const D: usize> Landscape<'a, D> {
             force: vec![[0.0; D]; mobile.len()],
             particles,
             surfaces,
+            bodies: &[],
             forces,
             added: None,
             calm: None,
@@ -168,13 +171,16 @@ impl<'a, const D: usize> Landscape<'a, D> {
         self.calm_seconds
     }
 
-    /// From now on free particles stay on the side of every surface where they are, 0.4 ∆s away from it unless they
-    /// are nearer now. Costs a look at every particle near a surface.
-    pub fn keep_sides(&mut self) {
+    /// From now on free particles stay on the side of every surface where they are: within, 0.4 ∆s away from the particle
+    /// surface; outside, as far from it and not beyond the true surface, unless they are nearer now. `bodies` are the true
+    /// ones. Costs a look at every particle near a surface.
+    pub fn keep_sides(&mut self, bodies: &'a [Body<D>]) {
         let start = Instant::now();
+        self.bodies = bodies;
         self.sides = Sides::of(
             self.particles,
             self.surfaces,
+            bodies,
             self.forces.list().domain(),
             self.spacing,
         );
@@ -234,7 +240,7 @@ impl<'a, const D: usize> Landscape<'a, D> {
             self.on_surface
                 .project(self.particles, self.surfaces, self.reach);
         }
-        self.sides.keep(self.particles, self.surfaces);
+        self.sides.keep(self.particles, self.surfaces, self.bodies);
         self.walls.keep(self.particles, &self.mobile);
         self.projection_seconds += start.elapsed().as_secs_f64();
     }

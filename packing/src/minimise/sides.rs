@@ -5,16 +5,20 @@ use sphpack_neighbors::{Domain, KdTree, point};
 
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
+use crate::problem::Body;
 
-/// No free particle comes nearer to a surface than this, in ∆s, if it was not nearer before: from within, and from
-/// outside, where an inset surface is ∆s/2 behind the true one, so that nobody crosses that. Those of the first layer are
-/// 0.8 ∆s away.
-const FLOOR: [f64; 2] = [0.4, 0.505];
+/// No free particle comes nearer to a particle surface than this, in ∆s, if it was not nearer before. Those of the first layer
+/// are 0.8 ∆s away.
+const FLOOR: f64 = 0.4;
 
-/// A particle this near to its floor, in parts of that, lies on it. Without some room rounding says who does (±10⁻¹⁷ on a
+/// Outside, the distance from the true surface is asked, which is another one around corners: 0.45 ∆s less the inset, but
+/// at least this, so that nobody crosses it.
+const OUTSIDE: [f64; 2] = [0.45, 0.005];
+
+/// A particle this near to its floor, in ∆s, lies on it. Without some room rounding says who does (±10⁻¹⁷ on a
 /// flat face, and on one that bends whoever slides is off by s²/2R), and the reaction of the surface comes and goes in
 /// the forces: a minimiser then finds no rest (blades of a CAD mesh: 1,126 evaluations, 86 with it).
-const ON_FLOOR: f64 = 0.01;
+const ON_FLOOR: f64 = 0.004;
 
 /// Free particles that have a surface particle within this, in ∆s, are watched.
 const SIGHT: f64 = 1.6;
@@ -32,10 +36,14 @@ pub(super) struct Sides<const D: usize> {
 struct Watched<const D: usize> {
     particle: u32,
     surface: u16,
+    /// Whether it is out of the body and the true surface counts, not the particle surface.
+    is_out: bool,
     /// 1 outside, −1 inside.
     side: f64,
     /// No nearer to the surface than this, on its side.
     floor: f64,
+    /// So near to it, it lies on it.
+    slack: f64,
     /// Where it was seen last, and how far it may go from there without being looked at.
     seen: [f64; D],
     room: f64,
@@ -45,17 +53,23 @@ struct Watched<const D: usize> {
 
 impl<const D: usize> Watched<D> {
     /// Looks at the particle anew, and puts it back where it came too near.
-    fn look(&mut self, surfaces: &[ParticleSurface<D>], p: &mut [f64; D]) {
-        let hit = surfaces[usize::from(self.surface)].surface.closest(*p);
+    fn look(&mut self, surfaces: &[ParticleSurface<D>], bodies: &[Body<D>], p: &mut [f64; D]) {
+        let number = usize::from(self.surface);
+        let surface = if self.is_out {
+            &bodies[number].surface
+        } else {
+            &surfaces[number].surface
+        };
+        let hit = surface.closest(*p);
         let away = point::scale(hit.normal, self.side);
         let lacking = self.floor - self.side * hit.distance;
-        self.held = (lacking >= -ON_FLOOR * self.floor).then_some(away);
+        self.held = (lacking >= -self.slack).then_some(away);
         if lacking > 0.0 {
             *p = point::add_scaled(*p, lacking, away);
         }
         self.seen = *p;
         // Who lies on the floor is looked at every time.
-        self.room = -lacking - ON_FLOOR * self.floor;
+        self.room = -lacking - self.slack;
     }
 }
 
@@ -64,6 +78,7 @@ impl<const D: usize> Sides<D> {
     pub(super) fn of(
         particles: &Particles<D>,
         surfaces: &[ParticleSurface<D>],
+        bodies: &[Body<D>],
         domain: &Domain<D>,
         spacing: f64,
     ) -> Self {
@@ -83,23 +98,32 @@ impl<const D: usize> Sides<D> {
         let sight = SIGHT * spacing;
         let watched = |&i: &u32| {
             let p = particles.position[i as usize];
-            let mut bodies: Vec<u16> = (domain.images(p, sight))
+            let mut around: Vec<u16> = (domain.images(p, sight))
                 .flat_map(|image| tree.within(image, sight))
                 .filter_map(|found| particles.body[on_surface[found.index] as usize])
                 .collect();
-            bodies.sort_unstable();
-            bodies.dedup();
-            bodies.into_iter().map(move |surface| {
-                let distance = surfaces[usize::from(surface)].surface.closest(p).distance;
-                let floor = FLOOR[usize::from(distance > 0.0)];
+            around.sort_unstable();
+            around.dedup();
+            around.into_iter().map(move |surface| {
+                let number = usize::from(surface);
+                let out = (bodies.get(number))
+                    .map(|body| (body.surface.closest(p).distance, body.inset_over_spacing))
+                    .filter(|(distance, _)| *distance > 0.0);
+                let (distance, floor) = match out {
+                    Some((distance, inset)) => (distance, (OUTSIDE[0] - inset).max(OUTSIDE[1])),
+                    None => (surfaces[number].surface.closest(p).distance, FLOOR),
+                };
                 let floor = (floor * spacing).min(distance.abs());
+                let slack = ON_FLOOR * spacing;
                 Watched {
                     particle: i,
                     surface,
+                    is_out: out.is_some(),
                     side: distance.signum(),
                     floor,
+                    slack,
                     seen: p,
-                    room: distance.abs() - floor * (1.0 + ON_FLOOR),
+                    room: distance.abs() - floor - slack,
                     held: None,
                 }
             })
@@ -114,7 +138,12 @@ impl<const D: usize> Sides<D> {
     }
 
     /// Puts particles back that came too near to a surface.
-    pub(super) fn keep(&mut self, particles: &mut Particles<D>, surfaces: &[ParticleSurface<D>]) {
+    pub(super) fn keep(
+        &mut self,
+        particles: &mut Particles<D>,
+        surfaces: &[ParticleSurface<D>],
+        bodies: &[Body<D>],
+    ) {
         let position = &particles.position;
         let moved: Vec<Option<[f64; D]>> = self
             .watched
@@ -125,7 +154,7 @@ impl<const D: usize> Sides<D> {
                 if point::distance(p, watched.seen) <= watched.room {
                     return None;
                 }
-                watched.look(surfaces, &mut p);
+                watched.look(surfaces, bodies, &mut p);
                 watched.held.map(|_| p)
             })
             .collect();

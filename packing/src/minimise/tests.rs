@@ -268,7 +268,7 @@ fn no_particle_slips_through_a_surface_that_is_watched() {
         let forces = Forces::of(&problem, Repulsion::new(problem.spacing, 0.001));
         let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 1.0);
         if is_watched {
-            landscape.keep_sides();
+            landscape.keep_sides(&problem.bodies);
         }
         landscape.hold_surface();
         landscape.set_repulsion(Repulsion::new(problem.spacing, 0.001));
