@@ -24,17 +24,17 @@ pub(super) fn cases() -> Vec<Box<dyn Case>> {
         })
         .collect();
     let bed = vec![
-        cuboid([0.0; 3], [1.0, 1.0, 0.2]),
-        cuboid([1.4, 0.0, 0.0], [2.4, 0.2, 0.7]),
-        cuboid([0.0, 1.4, 0.0], [0.25, 2.4, 0.8]),
-        cuboid([0.7, 1.5, 0.0], [0.9, 1.7, 0.9]),
+        cuboid([0.0; 3], [0.5, 0.5, 0.2]),
+        cuboid([0.7, 0.0, 0.0], [1.1, 0.2, 0.4]),
+        cuboid([0.0, 0.7, 0.0], [0.25, 1.1, 0.45]),
+        cuboid([0.7, 0.7, 0.0], [0.9, 0.9, 0.5]),
     ];
     let posts = (0..4)
         .map(|k: u32| {
             let at = [0.4 * f64::from(k % 2), 0.4 * f64::from(k / 2), 0.0];
-            cuboid(at, [at[0] + 0.2, at[1] + 0.2, 0.8])
+            cuboid(at, [at[0] + 0.2, at[1] + 0.2, 0.5])
         })
-        .chain([cuboid([0.9, 0.0, 0.0], [1.0, 0.6, 0.8])])
+        .chain([cuboid([0.75, 0.0, 0.0], [0.85, 0.6, 0.5])])
         .collect();
     let case = |name, size, solids| Box::new(Solids { name, size, solids }) as Box<dyn Case>;
     vec![
