@@ -10,16 +10,13 @@ use super::gaps;
 use super::pockets::Pockets;
 use super::shares::Share;
 use crate::depths::Depths;
-use crate::problem::Problem;
+use crate::problem::{DEFAULT_INSET_OVER_SPACING, Problem};
 
 /// Sites farther beyond a region's surface than this, in ∆s, are none of its.
 const BEYOND_OVER_SPACING: f64 = 1.0;
 
 /// A site nearer to the particle surface than this, in ∆s, is one too many: the settling would push it through.
 const CLEAR_OVER_SPACING: f64 = 0.3;
-
-/// A site of a body is at least so deep in it, in ∆s.
-const ABOVE_OVER_SPACING: f64 = 0.4;
 
 /// Places per ∆s among which those are found that have the most room, in the plane and in space.
 const PLACES: [i32; 2] = [4, 2];
@@ -90,7 +87,13 @@ pub(super) fn choose<const D: usize>(
         taken.extend(kept.map(|i| sites[i]));
         for (region, lack) in lacking {
             let places = between(problem, pockets, region as usize, on_surface);
-            let found = roomiest(&places, &taken, lack, ROOM_OVER_SPACING * problem.spacing);
+            let none = lack == regions[region as usize].sites && places.len() == 1;
+            let least = if none {
+                0.0
+            } else {
+                ROOM_OVER_SPACING * problem.spacing
+            };
+            let found = roomiest(&places, &taken, lack, least);
             count[region as usize] -= lack - found.len();
             for place in found {
                 taken.push(place);
@@ -115,16 +118,14 @@ fn is_clear<const D: usize>(
     site: usize,
 ) -> bool {
     let least = CLEAR_OVER_SPACING * problem.spacing;
+    let usual = DEFAULT_INSET_OVER_SPACING * problem.spacing;
     depths.around(site).all(|(part, phi)| {
         let inset = problem.bodies[part].inset_over_spacing * problem.spacing;
         match region.cmp(&part) {
             // Outside of every part that comes before, of all of them in the fluid.
             Ordering::Greater => phi + inset >= least,
-            // Beneath its particle surface; or above one that is deep, clear of what is outside too.
-            Ordering::Equal => {
-                let above = phi <= -ABOVE_OVER_SPACING * problem.spacing && phi + inset >= least;
-                -phi - inset >= least || above
-            }
+            // A surface that is asked for deeper than usual has particles above it too.
+            Ordering::Equal => inset > usual || -phi - inset >= least,
             // Parts around it are none of its affair.
             Ordering::Less => phi <= 0.0 || phi + inset >= least,
         }
@@ -132,7 +133,7 @@ fn is_clear<const D: usize>(
 }
 
 /// Places beside the surface particles of a region, and around its middle where it has none, all in it and clear of its
-/// surface.
+/// surface. A part that has no surface particle, and no place that is clear, has its deepest.
 fn between<const D: usize>(
     problem: &Problem<D>,
     pockets: &Pockets<D>,
@@ -148,6 +149,7 @@ fn between<const D: usize>(
         None => bounds,
     };
     let beside = (on_surface.iter().map(|hit| hit.point)).filter(|&p| around.contains(p));
+    let has_none = beside.clone().next().is_none();
     let mut cells: Vec<[i32; D]> = Vec::new();
     for p in beside.chain([around.center()]) {
         let middle: [i32; D] =
@@ -166,16 +168,26 @@ fn between<const D: usize>(
     cells.dedup();
     let places: Vec<[f64; D]> = (cells.into_iter())
         .map(|cell| std::array::from_fn(|k| bounds.min[k] + step * f64::from(cell[k])))
+        .chain([around.center()])
         .filter(|&p| bounds.contains(p) && around.contains(p))
         .collect();
     let near = 2.0 * problem.spacing;
     let depths = Depths::of(&problem.bodies, bounds, problem.spacing, near, &places);
     let of_bodies = region.min(parts);
-    (0..places.len())
+    let clear: Vec<[f64; D]> = (0..places.len())
         .filter(|&i| depths.within(of_bodies, i) > 0.0 && is_clear(problem, &depths, of_bodies, i))
         .filter(|&i| region < parts || pockets.at(problem, places[i]) == Some(region - parts))
         .map(|i| places[i])
-        .collect()
+        .collect();
+    if clear.is_empty() && region < parts && has_none {
+        let deepest = (0..places.len()).max_by(|&i, &j| {
+            depths
+                .within(region, i)
+                .total_cmp(&depths.within(region, j))
+        });
+        return deepest.map(|i| places[i]).into_iter().collect();
+    }
+    clear
 }
 
 /// A place, and how far it is from what was taken when that was last looked at.
