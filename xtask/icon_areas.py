@@ -21,10 +21,13 @@ with open(folder / "icons-areas.csv", "w", newline="") as out:
     rows = csv.writer(out)
     rows.writerow(["file", "area"])
     for path in files:
-        text = path.read_text()
+        # What is painted counts, however thinly.
+        text = re.sub(r'(fill-|stroke-)?opacity="0?\.\d*[1-9]\d*"', "", path.read_text())
         box = re.search(r'viewBox="([^"]*)"', text)
         _, _, width, height = map(float, box.group(1).replace(",", " ").split())
         scale = SIDE / max(width, height)
-        png = cairosvg.svg2png(bytestring=text.encode(), output_width=round(scale * width), output_height=round(scale * height))
+        size = {"output_width": round(scale * width), "output_height": round(scale * height)}
+        png = cairosvg.svg2png(bytestring=text.encode(), **size)
         alpha = numpy.asarray(Image.open(io.BytesIO(png)).convert("RGBA"))[:, :, 3]
-        rows.writerow([path.relative_to(folder / "icons").as_posix(), alpha.sum() / 255 * width * height / alpha.size])
+        area = alpha.sum() / 255 * width * height / alpha.size
+        rows.writerow([path.relative_to(folder / "icons").as_posix(), area])

@@ -98,8 +98,8 @@ impl<'a, 'input> Costs<'a, 'input> {
         Some(cost)
     }
 
-    /// What a text with `url(#…)` in it adds to an element of `below` bytes: what is passed on may be put at every point
-    /// within it.
+    /// What a text with `url(#…)` in it adds to an element of `below` bytes: what is passed on may be put at every
+    /// point within it.
     fn references(
         &mut self,
         text: &str,
