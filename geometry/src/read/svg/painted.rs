@@ -210,12 +210,10 @@ fn line(
     pen.dash_pattern.iter_mut().for_each(|dash| *dash /= size);
     let drawn = unit * path.clone();
     let period: f64 = pen.dash_pattern.iter().sum();
-    if !pen.dash_pattern.is_empty() {
-        if drawn.perimeter(0.01) > MOST_DASHES * period {
-            return Err(whole(
-                "a stroke of the drawing has too many dashes; draw it without them",
-            ));
-        }
+    if !pen.dash_pattern.is_empty() && drawn.perimeter(0.01) > MOST_DASHES * period {
+        return Err(whole(
+            "a stroke of the drawing has too many dashes; draw it without them",
+        ));
     }
     let around = kurbo::stroke(drawn, &pen, &StrokeOpts::default(), FLATTENING_OVER_SIZE);
     if around.elements().iter().any(|element| !element.is_finite()) {
