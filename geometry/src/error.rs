@@ -34,10 +34,11 @@ pub enum GeometryError {
         /// What it must be.
         needs: &'static str,
     },
-    /// An airfoil's name is not one of the NACA four-digit series.
+    /// An airfoil's name is not one of the NACA series of four and five digits.
     #[error(
-        "\"{digits}\" is no NACA four-digit airfoil; write four digits such as \"0015\" or \"2412\", the last two (thickness) above 00, \
-         the second above 0 where the first is"
+        "\"{digits}\" is no NACA airfoil of four or five digits; write four such as \"0015\" or \"2412\", the last two (thickness) above 00, \
+         the second above 0 where the first is, or five such as \"23012\" or \"23112\" (the second 1 to 5, the third 0 or 1); \
+         \"0012-64\" has a modified thickness (nose 0 to 9, place 2 to 6)"
     )]
     BadNaca {
         /// What was given.

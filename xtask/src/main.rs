@@ -1,5 +1,5 @@
-//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | reproduce-paper | balanced | compare | lattices |
-//! speed | bodies | round-trip`.
+//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | reproduce-paper | balanced | compare | corpora |
+//! lattices | speed | bodies | round-trip`.
 
 mod accelerations;
 mod agitators;
@@ -9,6 +9,7 @@ mod bodies;
 mod chart;
 mod ci;
 mod compare;
+mod corpora;
 mod dial;
 mod draw;
 mod figures;
@@ -57,6 +58,9 @@ cargo xtask TASK
                               accelerations, 000's agitators, 004's interface, 004's gaps;
                               --data names the folder with 30p30n (default: data),
                               --write also writes docs/methods.md, or that section of it
+  corpora --data DIR [--write]
+                              public collections of body files, read and judged: DIR/airfoils/*.dat, DIR/icons/**/*.svg;
+                              --write also writes docs/corpora.md
   lattices [--quick] [--write]
                               stability of every lattice, and packings from it; --write also writes docs/lattices.md
   speed [--quick] [--only SCENE] [--data DIR] [--write]
@@ -86,6 +90,7 @@ fn main() -> ExitCode {
         }
         Some("balanced") => reproduce::Settings::parse(rest).and_then(|s| balanced::run(&s)),
         Some("compare") => reproduce::Settings::parse(rest).and_then(|s| compare::run(&s)),
+        Some("corpora") => corpora::Settings::parse(rest).and_then(|s| corpora::run(&s)),
         Some("lattices") => reproduce::Settings::parse(rest).and_then(|s| lattices::run(&s)),
         Some("speed") => reproduce::Settings::parse(rest).and_then(|s| speed::run(&s)),
         Some("bodies") => bodies::Settings::parse(rest).and_then(|s| bodies::run(&s)),

@@ -436,7 +436,10 @@ fn stl_files() {
     assert!(bad(b"solid x\nfacet normal 0 0 0\n".to_vec()).contains("endsolid"));
     assert!(bad(b"solid x\nfacet nonsense\nendsolid x\n".to_vec()).contains("solid 1"));
     let mut lying = binary(&mesh, b"a part");
+    // A count that was never filled in.
     lying[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
+    assert!(Mesh::from_stl_bytes(&lying).is_ok());
+    lying[80..84].copy_from_slice(&0x7fff_ffff_u32.to_le_bytes());
     assert!(bad(lying.clone()).contains("STL"));
     lying[80..84].copy_from_slice(&3_u32.to_le_bytes());
     assert!(bad(lying).contains("promises 3 triangles"));

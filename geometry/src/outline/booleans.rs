@@ -117,6 +117,8 @@ pub(crate) enum Filled {
     Negative,
     /// Any odd number of times.
     Odd,
+    /// More often one way than the other.
+    Nonzero,
 }
 
 /// The boundary of what loops in any position bound, O(n log n) for n sides and crossings, as exact as
@@ -126,6 +128,7 @@ pub(crate) fn resolved(loops: &[Vec<[f64; 2]>], filled: Filled) -> Vec<Vec<[f64;
         Filled::Positive => FillRule::Positive,
         Filled::Negative => FillRule::Negative,
         Filled::Odd => FillRule::EvenOdd,
+        Filled::Nonzero => FillRule::NonZero,
     };
     let size = loops
         .iter()
@@ -133,6 +136,17 @@ pub(crate) fn resolved(loops: &[Vec<[f64; 2]>], filled: Filled) -> Vec<Vec<[f64;
         .reduce(Bounds::union)
         .map_or(0.0, |bounds| bounds.diagonal());
     let shapes = engine::overlay(loops, &[], OverlayRule::Subject, rule);
+    without_slivers(shapes, size)
+}
+
+/// The boundary of what both sets of loops, each as [`resolved`] gives them, hold; thin pieces and holes left out.
+pub(crate) fn common(one: &Loops, other: &Loops) -> Vec<Vec<[f64; 2]>> {
+    let size = one
+        .iter()
+        .map(|points| Bounds::of(points))
+        .reduce(Bounds::union)
+        .map_or(0.0, |bounds| bounds.diagonal());
+    let shapes = engine::overlay(one, other, OverlayRule::Intersect, FillRule::NonZero);
     without_slivers(shapes, size)
 }
 

@@ -4,6 +4,7 @@ pub(crate) mod booleans;
 pub(crate) mod check;
 mod engine;
 mod inside;
+mod naca;
 mod offset;
 mod pieces;
 mod shapes;

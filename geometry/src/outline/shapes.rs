@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Outline;
+use super::naca::NacaSection;
 use crate::GeometryError;
 use crate::sampling::{extent, nodes};
 
@@ -73,16 +74,25 @@ impl Outline {
         Self::polygon(&points)
     }
 
-    /// The NACA four-digit airfoil `digits` ("0015", "2412") with its leading edge at the origin and its chord of
-    /// length `chord` (scene units) along +x; the trailing edge is closed (last coefficient −0.1036) and its only
-    /// corner. Sampled within [`SAGITTA_OVER_SIZE`](crate::SAGITTA_OVER_SIZE) of the chord.
+    /// The NACA airfoil `digits` with its leading edge at the origin and its chord of length `chord` (scene units)
+    /// along +x: of four digits ("0015", "2412"), of five ("23012"; "23112" with a reflexed mean line), each of them also
+    /// with a modified thickness ("0012-64": 6 for the nose's radius, of 0 to 9, and 4 for the place of the greatest
+    /// thickness, of 2 to 6 tenths). The trailing edge is closed (last coefficient −0.1036) and its only corner. Sampled
+    /// within [`SAGITTA_OVER_SIZE`](crate::SAGITTA_OVER_SIZE) of the chord.
+    ///
+    /// ```
+    /// use sphpack_geometry::{Outline, Surface};
+    /// let thickest = |name: &str| Outline::naca(name, 1.0).map(|wing| wing.bounds().max[1]);
+    /// assert!((thickest("0012-64")? - 0.06).abs() < 1e-6);
+    /// assert!(thickest("23012")? > 0.06);
+    /// # Ok::<(), sphpack_geometry::GeometryError>(())
+    /// ```
     ///
     /// # Errors
-    /// [`GeometryError::BadNaca`] for anything but four digits with a thickness, [`GeometryError::BadParameter`] for
-    /// a bad chord.
+    /// [`GeometryError::BadNaca`] for any other name, [`GeometryError::BadParameter`] for a bad chord.
     pub fn naca(digits: &str, chord: f64) -> Result<Self, GeometryError> {
         GeometryError::check_positive("naca", "chord", chord)?;
-        let foil = Foil::new(digits)?;
+        let foil = NacaSection::named(digits)?;
         let at = |angle: f64| {
             let [x, y] = foil.at(angle);
             [chord * x, chord * y]
@@ -136,78 +146,6 @@ impl Outline {
         }
         points.push([-right, 0.0]);
         Self::polygon(&points)
-    }
-}
-
-/// A NACA four-digit airfoil of chord 1.
-struct Foil {
-    /// Greatest camber.
-    camber: f64,
-    /// Where along the chord it is.
-    place: f64,
-    /// Greatest thickness.
-    thickness: f64,
-}
-
-impl Foil {
-    fn new(digits: &str) -> Result<Self, GeometryError> {
-        let wrong = || GeometryError::BadNaca {
-            digits: digits.chars().take(40).collect(),
-        };
-        let d: Vec<f64> = digits
-            .chars()
-            .map(|c| c.to_digit(10).map(f64::from))
-            .collect::<Option<_>>()
-            .ok_or_else(wrong)?;
-        let &[m, p, t1, t2] = d.as_slice() else {
-            return Err(wrong());
-        };
-        let thickness = (10.0 * t1 + t2) / 100.0;
-        if thickness == 0.0 || (m > 0.0 && p == 0.0) {
-            return Err(wrong());
-        }
-        Ok(Self {
-            camber: m / 100.0,
-            place: p / 10.0,
-            thickness,
-        })
-    }
-
-    /// The outline at `angle`: 0 at the trailing edge, π at the leading edge, 2π at the trailing edge again, upper
-    /// side first.
-    fn at(&self, angle: f64) -> [f64; 2] {
-        // s = ±√x makes the nose smooth in the angle.
-        let s = (0.5 * angle).cos();
-        if angle == 0.0 || angle == TAU {
-            return [1.0, 0.0];
-        }
-        if angle == PI {
-            return [0.0, 0.0];
-        }
-        let x = s * s;
-        let root = s.abs();
-        let half = 5.0
-            * self.thickness
-            * (root * 0.2969 + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x))));
-        let (camber, slope) = self.camber_line(x);
-        let length = slope.hypot(1.0);
-        let up = if s > 0.0 { half } else { -half };
-        [x - up * slope / length, camber + up / length]
-    }
-
-    /// Height and slope of the mean line at `x`.
-    fn camber_line(&self, x: f64) -> (f64, f64) {
-        let (m, p) = (self.camber, self.place);
-        if m == 0.0 {
-            return (0.0, 0.0);
-        }
-        let part = if x < p {
-            m / (p * p)
-        } else {
-            m / ((1.0 - p) * (1.0 - p))
-        };
-        let start = if x < p { 0.0 } else { 1.0 - 2.0 * p };
-        (part * (start + 2.0 * p * x - x * x), 2.0 * part * (p - x))
     }
 }
 

@@ -15,51 +15,71 @@ struct Row {
     follows_blank: bool,
 }
 
-/// Loops, one for each element. A name may stand in the first line. Then points follow once round each element, either
-/// way, elements parted by blank lines or by a row of two equal numbers of 999 or more; or the numbers of points of the
-/// upper and the lower surface, and these, which are joined where their ends are nearest.
+/// Loops, one for each element. Names, remarks and MSES's domain may stand before the points. Then points follow once
+/// round each element, either way, elements parted by blank lines or by a row of two equal numbers of 999 or more; or
+/// the numbers of points of the upper and the lower surface, and these, which are joined where their ends are nearest.
+/// What follows a line of text after a closed run is no part of the airfoil.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Run>, GeometryError> {
     check_text(bytes)?;
     let mut rows: Vec<Row> = Vec::new();
-    let mut announced: Option<(usize, usize)> = None;
-    let mut is_first = true;
+    let mut announced: Option<Announced> = None;
     let mut has_name = false;
     let mut follows_blank = false;
+    let mut follows_heading = false;
     for (at, line) in Lines::of(bytes) {
         let content = content(line);
         if content.is_empty() {
             follows_blank |= line.trim_ascii().is_empty();
             continue;
         }
-        match pair(content) {
-            Ok(point) => rows.push(Row {
-                at,
-                point,
-                follows_blank,
-            }),
-            // Some writers put the number of points below the name.
-            Err(_) if rows.is_empty() && announced.is_none() && count(content).is_some() => {
-                announced = count(content).map(|count| (count, at));
+        match in_plane(content) {
+            Ok(point) => {
+                rows.push(Row {
+                    at,
+                    point,
+                    follows_blank,
+                });
+                follows_heading = false;
             }
-            Err(_) if is_first => has_name = true,
-            Err(reason) => return Err(row(at, reason)),
+            Err(reason) if is_spoilt(content) => return Err(row(at, reason)),
+            Err(_) if rows.is_empty() => {
+                // Some writers put the number of points below the name.
+                match count(content).filter(|_| announced.is_none()) {
+                    Some(count) => {
+                        announced = Some(Announced {
+                            count,
+                            at,
+                            is_below_name: has_name,
+                        });
+                    }
+                    None => has_name = true,
+                }
+            }
+            // The heading of the other surface may have several lines.
+            Err(_) if follows_heading => {}
+            Err(_) if is_open(&places(last_run(&rows))) => follows_heading = true,
+            Err(_) => break,
         }
-        is_first = false;
-        follows_blank = false;
+        follows_blank = follows_heading;
     }
-    if let Some((count, at)) = announced
+    if let Some(Announced {
+        count,
+        at,
+        is_below_name,
+    }) = announced
         && count != rows.len()
     {
-        return Err(row(
-            at,
-            format!(
-                "{count} points are announced, but {} follow; the file is cut off or damaged, fetch it again",
-                rows.len()
-            ),
-        ));
+        // A number in the first line may be the airfoil's name.
+        if is_below_name || rows.is_empty() {
+            return Err(wrong_count(at, &format!("{count} points"), rows.len()));
+        }
+        has_name = true;
     }
     if let Some((upper, lower)) = surfaces(&rows, has_name)? {
         return Ok(vec![joined(upper, lower)]);
+    }
+    if is_title(&rows, has_name) {
+        rows.remove(0);
     }
     let mut runs: Vec<Run> = vec![Vec::new()];
     for row in &rows {
@@ -80,6 +100,61 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Run>, GeometryError> {
         Ok(two) => two.into(),
         Err(runs) => runs,
     })
+}
+
+/// The number of points that a line promises.
+struct Announced {
+    count: usize,
+    at: usize,
+    is_below_name: bool,
+}
+
+fn wrong_count(at: usize, announced: &str, found: usize) -> GeometryError {
+    row(
+        at,
+        format!(
+            "{announced} are announced, but {found} follow; the file is cut off or damaged, fetch it again"
+        ),
+    )
+}
+
+/// A point from two numbers, or three of which the last is 0.
+pub(super) fn in_plane(content: &[u8]) -> Result<[f64; 2], String> {
+    pair(content).or_else(|reason| {
+        let mut numbers = fields(content).map(super::lines::number);
+        match [(); 4].map(|()| numbers.next()) {
+            [Some(Some(x)), Some(Some(y)), Some(Some(0.0)), None] => Ok([x, y]),
+            _ => Err(reason),
+        }
+    })
+}
+
+/// Whether this is a point with a fault rather than text: two fields, or three, the first a number with a point.
+fn is_spoilt(content: &[u8]) -> bool {
+    let mut fields = fields(content);
+    let is_decimal = |field: &[u8]| field.contains(&b'.') && super::lines::number(field).is_some();
+    fields.next().is_some_and(is_decimal) && (1..3).contains(&fields.count())
+}
+
+/// Whether the first row is a name such as "63 215": two whole numbers, far beyond all that follows.
+fn is_title(rows: &[Row], has_name: bool) -> bool {
+    let Some((first, others)) = rows.split_first() else {
+        return false;
+    };
+    let is_whole = first.point.iter().all(|x| x.fract() == 0.0);
+    let reach = |row: &Row| row.point.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let beyond = 10.0 * others.iter().map(reach).fold(0.0, f64::max);
+    !has_name && is_whole && others.len() > 2 && reach(first) > beyond
+}
+
+/// The rows since the last blank line.
+fn last_run(rows: &[Row]) -> &[Row] {
+    let start = rows.iter().rposition(|row| row.follows_blank).unwrap_or(0);
+    &rows[start..]
+}
+
+fn places(rows: &[Row]) -> Run {
+    rows.iter().map(|row| row.point).collect()
 }
 
 /// One whole number, alone in its row.
@@ -103,18 +178,15 @@ fn surfaces(rows: &[Row], has_name: bool) -> Result<Option<(Run, Run)>, Geometry
     if !(is_count(upper) && is_count(lower) && (fits && has_name || stands_alone)) {
         return Ok(None);
     }
+    if !fits && is_title(rows, has_name) {
+        return Ok(None);
+    }
     if !fits {
-        return Err(row(
-            first.at,
-            format!(
-                "{upper} and {lower} points are announced, but {} follow; the file is cut off or damaged, fetch it again",
-                points.len()
-            ),
-        ));
+        let announced = format!("{upper} and {lower} points");
+        return Err(wrong_count(first.at, &announced, points.len()));
     }
     let (upper, lower) = points.split_at(upper as usize);
-    let run = |rows: &[Row]| rows.iter().map(|row| row.point).collect();
-    Ok(Some((run(upper), run(lower))))
+    Ok(Some((places(upper), places(lower))))
 }
 
 /// Whether a run goes from one end of an airfoil to the other, not round it.

@@ -2,7 +2,7 @@
 
 use super::lines::{Lines, number, whole, without_mark, words};
 use super::rows::{content, fields, pair};
-use super::stl;
+use super::{airfoil, stl};
 use crate::GeometryError;
 
 /// The formats of body files that can be read.
@@ -190,8 +190,11 @@ enum Rows {
     Airfoil,
 }
 
+/// Lines that may stand before the points of an airfoil.
+const MOST_TITLES: usize = 6;
+
 /// Looks for two numbers in the second line at the latest, as the first may be a header; for an airfoil these are whole
-/// numbers of points, alone between blank lines, below a name.
+/// numbers of points, alone between blank lines, below a name, or more lines stand before the points.
 fn rows(head: &[u8]) -> Rows {
     let mut filled = Lines::of(head).filter(|(_, line)| !content(line).is_empty());
     let Some((_, first)) = filled.next() else {
@@ -222,6 +225,15 @@ fn rows(head: &[u8]) -> Rows {
                 _ => Rows::None,
             }
         }
-        Err(_) => Rows::None,
+        Err(_) => {
+            let is_point = |line: &[u8]| airfoil::in_plane(content(line)).is_ok();
+            let all = Lines::of(head).map(|(_, line)| line);
+            let mut points = all
+                .filter(|line| !content(line).is_empty())
+                .take(MOST_TITLES + 3)
+                .skip_while(|line| !is_point(line));
+            let is_run = (0..3).all(|_| points.next().is_some_and(is_point));
+            if is_run { Rows::Airfoil } else { Rows::None }
+        }
     }
 }

@@ -65,8 +65,9 @@ impl BodyFormat {
     }
 
     /// The loops of an outline file's content, in the order and direction of the file; a loop's last point may repeat
-    /// its first. Curves of an SVG drawing become straight sides within [`FLATTENING_OVER_SIZE`] of its size. O(n) in
-    /// time and memory for n bytes.
+    /// its first. Of an SVG drawing, the boundary of what it paints, curves as straight sides within
+    /// [`FLATTENING_OVER_SIZE`] of its size. O(n) in time and memory for n bytes, of a drawing whose paths meet
+    /// O(n log n).
     ///
     /// # Errors
     /// [`GeometryError::BadRow`] or [`GeometryError::BadFile`] with the line, what is wrong and the cure; a file of a
@@ -75,7 +76,7 @@ impl BodyFormat {
         match self {
             Self::Csv => rows::read(bytes),
             Self::Airfoil => airfoil::read(bytes),
-            Self::Svg => svg::read(bytes),
+            Self::Svg => svg::read(bytes).map(|(loops, _)| loops),
             Self::Stl | Self::Obj | Self::Ply => Err(lines::whole(format!(
                 "this is {}, a mesh (3-D); an outline is needed here: rows of x,y, an airfoil or SVG",
                 self.description()

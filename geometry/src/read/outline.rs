@@ -2,17 +2,19 @@
 
 use std::path::Path;
 
-use super::BodyFormat;
+use super::{BodyFormat, svg};
 use crate::{GeometryError, Outline, Sketch};
 
 impl Outline {
     /// Reads an outline without defects: rows of x,y, an airfoil's coordinates, or a drawing in SVG, by its content.
     ///
     /// Rows are "x,y" (or "x y", "x;y"; with decimal commas where ";" or a tab parts them); `#` starts a comment, one header or title is allowed, a blank line ends a
-    /// loop. Airfoils are Selig's (once round) or Lednicer's (upper and lower surface, with their numbers of points).
-    /// Of a drawing, every closed path, polygon, rectangle, circle and ellipse is a loop, transforms applied; its units
-    /// are those of the outermost viewBox (width and height do not matter), and since its y points down, (x, y) is read
-    /// as (x, −y). Curves become straight sides within [`FLATTENING_OVER_SIZE`](crate::FLATTENING_OVER_SIZE) of the
+    /// loop. Airfoils are Selig's (once round) or Lednicer's (upper and lower surface, with their numbers of points); titles,
+    /// MSES's domain and remarks may stand before the points, text and tables after them.
+    /// A drawing is what a viewer paints of it, fills and strokes alike and whatever their colour, even where the page
+    /// ends before. Its units are those of the outermost viewBox (width and height do not matter), and since its y points
+    /// down, (x, y) is read as (x, −y). Texts, images, masks and filters are not read, and [`Sketch::body`] says so.
+    /// Curves become straight sides within [`FLATTENING_OVER_SIZE`](crate::FLATTENING_OVER_SIZE) of the
     /// drawing's size. [`Sketch::read`] takes outlines with defects too.
     ///
     /// # Errors
@@ -68,7 +70,13 @@ impl Sketch {
     /// # Errors
     /// As [`Sketch::read`], without a file's name.
     pub fn from_bytes(format: BodyFormat, bytes: &[u8]) -> Result<Self, GeometryError> {
-        Self::new(format.loops(bytes)?)
+        match format {
+            BodyFormat::Svg => {
+                let (loops, done) = svg::read(bytes)?;
+                Self::remarked(loops, done)
+            }
+            _ => Self::new(format.loops(bytes)?),
+        }
     }
 }
 

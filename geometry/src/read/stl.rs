@@ -15,6 +15,9 @@ const HEAD: usize = 84;
 /// Bytes per triangle of a binary file.
 const RECORD: usize = 50;
 
+/// What some exporters write for a count that they do not know yet.
+const UNKNOWN: u64 = u32::MAX as u64;
+
 /// A binary file is one solid, named by its title; a text file may hold several.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
     if bytes.is_empty() {
@@ -45,7 +48,26 @@ fn needed(count: u64) -> u64 {
 pub(super) fn binary_count(head: &[u8], size: u64) -> Option<u64> {
     let count = promised(head)?;
     let fits = needed(count) <= size && size < needed(count) + RECORD as u64;
+    if !fits && matches!(count, 0 | UNKNOWN) {
+        return counted_by_size(head, size);
+    }
     (fits && !(count == 0 && is_text(head))).then_some(count)
+}
+
+/// The number of triangles by the size, for exporters that write the head first and never go back to it.
+fn counted_by_size(head: &[u8], size: u64) -> Option<u64> {
+    let rest = size.checked_sub(HEAD as u64)?;
+    let first = head.get(HEAD..HEAD + RECORD)?;
+    let number = |bytes: &[u8]| {
+        let bytes: [u8; 4] = bytes.try_into().ok()?;
+        Some(f32::from_le_bytes(bytes))
+    };
+    // What follows must look like a triangle.
+    let is_sound = first[..RECORD - 2]
+        .chunks(4)
+        .all(|bytes| number(bytes).is_some_and(|x| x == 0.0 || (1e-30..1e30).contains(&x.abs())));
+    let count = rest / RECORD as u64;
+    (rest % RECORD as u64 == 0 && count < UNKNOWN && is_sound).then_some(count)
 }
 
 /// Whether the first word is "solid".
@@ -79,9 +101,13 @@ fn wrong_size(bytes: &[u8]) -> GeometryError {
 
 fn read_binary(bytes: &[u8], count: u64) -> Result<Solid, GeometryError> {
     // Some exporters begin the title with "solid", by which the library knows text files.
-    let bytes = if bytes.trim_ascii_start().len() < bytes.len() || is_text(bytes) {
+    let is_misleading = bytes.trim_ascii_start().len() < bytes.len() || is_text(bytes);
+    let bytes = if is_misleading || promised(bytes) != Some(count) {
         let mut copy = bytes.to_vec();
-        copy[..80].fill(b'.');
+        if is_misleading {
+            copy[..80].fill(b'.');
+        }
+        copy[80..HEAD].copy_from_slice(&(count as u32).to_le_bytes());
         Cow::Owned(copy)
     } else {
         Cow::Borrowed(bytes)

@@ -29,6 +29,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
             )
         };
         let mut words = words(line);
+        let mut has_ended = false;
         while let Some(word) = words.next() {
             let is = |keyword: &[u8]| word.eq_ignore_ascii_case(keyword);
             let Some(open) = solids.last_mut().filter(|_| is_open) else {
@@ -64,6 +65,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
                     is_open = false;
                     break;
                 }
+                // Some exporters give facets names.
+                None if has_ended => break,
                 None => return Err(unexpected("a facet or \"endsolid\"")),
                 Some(facet) if is(b"vertex") => {
                     let mut corner = [0.0; 3];
@@ -91,6 +94,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
                 Some(done) if is(b"endfacet") && done.count == 3 => {
                     open.triangles.push(done.corners);
                     facet = None;
+                    has_ended = true;
                 }
                 Some(_) => return Err(unexpected("a facet of three vertices, a triangle,")),
             }

@@ -34,7 +34,7 @@ impl Sketch {
         if report.is_clean() {
             return Ok(MendedOutline {
                 outline: Outline::new(self.loops.clone())?,
-                done: Vec::new(),
+                done: self.done.clone(),
             });
         }
         if let ([_], [only]) = (&self.loops[..], &report.loops[..])

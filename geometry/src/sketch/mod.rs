@@ -33,6 +33,8 @@ pub use report::{LoopRole, OutlineDefect, OutlineDefectKind, OutlineReport, Sket
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sketch {
     loops: Vec<Vec<[f64; 2]>>,
+    /// What was done to make loops of what a file holds.
+    done: Vec<OutlineRepair>,
 }
 
 impl Sketch {
@@ -50,12 +52,26 @@ impl Sketch {
         // Squares must stay finite too, or every distance is infinite.
         let is_bad = |&p: &[f64; 2]| !point::norm_squared(p).is_finite();
         match loops.iter().flatten().position(is_bad) {
-            None => Ok(Self { loops }),
+            None => Ok(Self {
+                loops,
+                done: Vec::new(),
+            }),
             Some(index) => Err(GeometryError::NotFinite {
                 what: "point",
                 index,
             }),
         }
+    }
+
+    /// [`Sketch::new`] for loops of which there is something to say: it stands before what else is done to them.
+    pub(crate) fn remarked(
+        loops: Vec<Vec<[f64; 2]>>,
+        done: Vec<OutlineRepair>,
+    ) -> Result<Self, GeometryError> {
+        Ok(Self {
+            done,
+            ..Self::new(loops)?
+        })
     }
 
     /// The loops as they were given.

@@ -42,6 +42,28 @@ pub enum OutlineRepair {
     Merged(usize),
     /// Places at which the outline touches itself in a point were left.
     LeftContacts(usize),
+    /// Filled paths of a drawing that were open were closed by straight sides, as a viewer does.
+    ClosedPaths {
+        /// How many.
+        paths: usize,
+        /// The widest of their gaps.
+        widest: f64,
+    },
+    /// Strokes of a drawing were taken for what they paint.
+    Stroked {
+        /// How many.
+        strokes: usize,
+        /// The width of the widest.
+        widest: f64,
+        /// Whether nothing in the drawing is filled.
+        is_all: bool,
+    },
+    /// Texts of a drawing were left out.
+    LeftOutTexts(usize),
+    /// Images in a drawing were left out.
+    LeftOutImages(usize),
+    /// Masks and filters of a drawing were not applied.
+    LeftOutEffects(usize),
 }
 
 impl fmt::Display for OutlineRepair {
@@ -113,6 +135,50 @@ impl fmt::Display for OutlineRepair {
                     "contacts of the outline with itself, in points, were"
                 )
             ),
+            Self::ClosedPaths { paths, widest } => write!(
+                f,
+                "{paths} filled {} closed by a straight side; the widest gap was {}",
+                of(
+                    paths,
+                    "path of the drawing that was open was",
+                    "paths of the drawing that were open were"
+                ),
+                four_digits(widest)
+            ),
+            Self::Stroked {
+                strokes,
+                widest,
+                is_all,
+            } => write!(
+                f,
+                "{strokes} {} to the body, up to {} wide{}",
+                of(strokes, "stroke belongs", "strokes belong"),
+                four_digits(widest),
+                if is_all {
+                    ", and nothing else, as nothing in the drawing is filled: fill the paths if what they go round is meant"
+                } else {
+                    ", as a viewer paints them"
+                }
+            ),
+            Self::LeftOutTexts(n) => write!(
+                f,
+                "{n} {} left out; turn it into paths in the drawing program if it belongs to the body",
+                of(n, "text of the drawing was", "texts of the drawing were")
+            ),
+            Self::LeftOutImages(n) => write!(
+                f,
+                "{n} {} left out; trace it in the drawing program if it belongs to the body",
+                of(n, "image in the drawing was", "images in the drawing were")
+            ),
+            Self::LeftOutEffects(n) => write!(
+                f,
+                "{n} {} not applied: what they change is there as if without them",
+                of(
+                    n,
+                    "mask or filter of the drawing was",
+                    "masks and filters of the drawing were"
+                )
+            ),
         }
     }
 }
@@ -148,7 +214,7 @@ impl Sketch {
         let survey = Survey::new(self);
         let mut repaired = RepairedSketch {
             sketch: self.clone(),
-            done: Vec::new(),
+            done: self.done.clone(),
             report: survey.report(self),
             is_directed: false,
         };

@@ -11,8 +11,8 @@ use super::lines::whole;
 use super::{Faces, Solid, loosened};
 use crate::GeometryError;
 
-/// One part without a name. Elements and properties other than vertices' x, y, z and faces' lists of vertices are
-/// passed over.
+/// One part without a name. Elements and properties other than vertices' x, y, z and the lists of vertices of faces
+/// and strips are passed over.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
     let header = header::read(bytes)?;
     let mut surface = PolygonSurface::default();
@@ -62,6 +62,8 @@ struct PolygonSurface {
 enum Use {
     Axis(usize),
     Corners,
+    /// Corners of strips, each triangle the last two and the next; −1 begins another strip.
+    Strip,
     Nothing,
 }
 
@@ -99,7 +101,10 @@ impl PolygonSurface {
                     };
                     for _ in 0..length {
                         let value = numbers.next(item)?;
-                        if what == Use::Corners {
+                        if what == Use::Strip && (value == -1.0 || value == f64::from(u32::MAX)) {
+                            self.add_strip(&corners);
+                            corners.clear();
+                        } else if matches!(what, Use::Corners | Use::Strip) {
                             let Some(corner) = counted(value) else {
                                 return Err(numbers.fault(format!(
                                     "a face refers to vertex {value}; the file is damaged, export the body again"
@@ -118,12 +123,25 @@ impl PolygonSurface {
                         });
                     }
                     self.vertices.push(vertex);
+                } else if columns.iter().any(|column| column.0 == Use::Strip) {
+                    self.add_strip(&corners);
                 } else {
                     self.faces.add(&corners);
                 }
             }
         }
         Ok(())
+    }
+
+    /// Triangles of a strip: every other one is the other way round; those that only turn it have a corner twice.
+    fn add_strip(&mut self, corners: &[u32]) {
+        for (k, corners) in corners.windows(3).enumerate() {
+            let [a, b, c] = [corners[0], corners[1], corners[2]];
+            if a != b && b != c && c != a {
+                let (a, b) = if k % 2 == 0 { (a, b) } else { (b, a) };
+                self.faces.add(&[a, b, c]);
+            }
+        }
     }
 }
 
@@ -140,6 +158,7 @@ fn columns(element: &Element<'_>) -> Result<Vec<Column>, GeometryError> {
                 (b"vertex", b"y", None) => Use::Axis(1),
                 (b"vertex", b"z", None) => Use::Axis(2),
                 (b"face", b"vertex_indices" | b"vertex_index", Some(_)) => Use::Corners,
+                (b"tristrips", b"vertex_indices" | b"vertex_index", Some(_)) => Use::Strip,
                 _ => Use::Nothing,
             };
             (what, property.length, property.item)
@@ -153,8 +172,8 @@ fn columns(element: &Element<'_>) -> Result<Vec<Column>, GeometryError> {
         b"face" if !has(Use::Corners) => Err(whole(
             "the PLY file's faces lack the list vertex_indices; export the body again",
         )),
-        b"tristrips" => Err(whole(
-            "the PLY file holds strips of triangles, which are not read; export the body as triangles",
+        b"tristrips" if !has(Use::Strip) => Err(whole(
+            "the PLY file's strips of triangles lack the list vertex_indices; export the body again",
         )),
         _ => Ok(columns),
     }

@@ -1,13 +1,12 @@
-//! Paths into closed loops of straight sides.
+//! Curves into closed loops of straight sides.
 
-use kurbo::{PathEl, Point, Rect};
+use kurbo::{BezPath, PathEl, Point, Rect};
 
-use super::Drawn;
 use crate::GeometryError;
-use crate::read::lines::{row, whole};
+use crate::read::lines::whole;
 
 /// How far the sides that stand for a curve of a drawing may be from it, in parts of the drawing's size (the diagonal
-/// of the box around all its paths).
+/// of the box around all that is painted).
 pub const FLATTENING_OVER_SIZE: f64 = 1e-6;
 
 /// A path whose ends are this near, in parts of the drawing's size, is closed.
@@ -16,63 +15,43 @@ const CLOSED_OVER_SIZE: f64 = 1e-6;
 /// Points that any drawing may have, and those for each of its bytes: a few of them cannot ask for much memory.
 const MOST_POINTS: (usize, usize) = (1_000_000, 4);
 
-/// The closed loops of all paths, for a file of `size` bytes.
-pub(super) fn loops(shapes: &[Drawn], size: usize) -> Result<Vec<Vec<[f64; 2]>>, GeometryError> {
-    let mut bounds: Option<Rect> = None;
-    for shape in shapes {
-        for point in shape.path.elements().iter().flat_map(points) {
-            if !(point.to_vec2().hypot2() * 16.0).is_finite() {
-                return Err(row(
-                    shape.line,
-                    "a path has coordinates that are too large; scale the drawing down",
-                ));
-            }
-            let here = Rect::from_points(point, point);
-            bounds = Some(bounds.map_or(here, |b| b.union(here)));
-        }
-    }
-    let Some(bounds) = bounds else {
-        return Ok(Vec::new());
-    };
-    let mut flattener = Flattener {
-        middle: bounds.center(),
-        size: bounds.width().hypot(bounds.height()),
-        room: MOST_POINTS.0 + MOST_POINTS.1 * size,
-        loops: Vec::new(),
-        current: Vec::new(),
-    };
-    for shape in shapes {
-        flattener.add(shape)?;
-    }
-    Ok(flattener.loops)
-}
-
-fn points(element: &PathEl) -> impl Iterator<Item = Point> + use<> {
-    let (all, count) = match *element {
-        PathEl::MoveTo(a) | PathEl::LineTo(a) => ([a; 3], 1),
-        PathEl::QuadTo(a, b) => ([a, b, b], 2),
-        PathEl::CurveTo(a, b, c) => ([a, b, c], 3),
-        PathEl::ClosePath => ([Point::ORIGIN; 3], 0),
-    };
-    all.into_iter().take(count)
-}
-
-struct Flattener {
+/// Makes loops of paths.
+pub(super) struct Flattener {
     middle: Point,
     size: f64,
     /// How many more points there may be.
     room: usize,
     loops: Vec<Vec<[f64; 2]>>,
     current: Vec<[f64; 2]>,
+    /// How wide the gap of each path was that was open.
+    pub(super) gaps: Vec<f64>,
 }
 
 impl Flattener {
-    fn add(&mut self, shape: &Drawn) -> Result<(), GeometryError> {
+    /// For a drawing within `bounds`, in a file of `file_size` bytes.
+    pub(super) fn new(bounds: Rect, file_size: usize) -> Self {
+        Self {
+            middle: bounds.center(),
+            size: bounds.width().hypot(bounds.height()),
+            room: MOST_POINTS.0 + MOST_POINTS.1 * file_size,
+            loops: Vec::new(),
+            current: Vec::new(),
+            gaps: Vec::new(),
+        }
+    }
+
+    /// The size of the drawing.
+    pub(super) fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// The loops of a path, every part of it closed.
+    pub(super) fn loops(&mut self, path: &BezPath) -> Result<Vec<Vec<[f64; 2]>>, GeometryError> {
         let mut now = Point::ORIGIN;
-        for &element in shape.path.elements() {
+        for &element in path.elements() {
             match element {
                 PathEl::MoveTo(to) => {
-                    self.end(shape.line)?;
+                    self.end();
                     self.current.push([to.x, to.y]);
                     now = to;
                 }
@@ -87,34 +66,22 @@ impl Flattener {
                 PathEl::ClosePath => self.keep(),
             }
             if self.current.len() > self.room {
-                return Err(whole(
-                    "the drawing has more curves than its size lets expect, and would need too many points; simplify its paths",
-                ));
+                return Err(too_many_points());
             }
         }
-        self.end(shape.line)
+        self.end();
+        Ok(std::mem::take(&mut self.loops))
     }
 
-    /// Ends a path that is not closed explicitly.
-    fn end(&mut self, line: usize) -> Result<(), GeometryError> {
-        let path = &self.current;
-        let [first, .., last] = path.as_slice() else {
-            // A start that nothing is drawn from is no path.
-            self.current.clear();
-            return Ok(());
-        };
-        let gap = (first[0] - last[0]).hypot(first[1] - last[1]);
-        if gap > CLOSED_OVER_SIZE * self.size || path.len() < 3 {
-            return Err(row(
-                line,
-                format!(
-                    "a path is not closed: it starts at ({}, {}) and ends at ({}, {}) (y up); close it, or delete it from the drawing",
-                    first[0], first[1], last[0], last[1]
-                ),
-            ));
+    /// Ends a path that is not closed explicitly: paint fills it all the same.
+    fn end(&mut self) {
+        if let [first, _, .., last] = self.current.as_slice() {
+            let gap = (first[0] - last[0]).hypot(first[1] - last[1]);
+            if gap > CLOSED_OVER_SIZE * self.size {
+                self.gaps.push(gap);
+            }
         }
         self.keep();
-        Ok(())
     }
 
     /// Takes the path as a loop; one of two points has no inside.
@@ -149,4 +116,10 @@ impl Flattener {
             *last = [to.x, to.y];
         }
     }
+}
+
+pub(super) fn too_many_points() -> GeometryError {
+    whole(
+        "the drawing has more curves than its size lets expect, and would need too many points; simplify its paths",
+    )
 }

@@ -155,9 +155,22 @@ fn corpus_bodies_have_their_volumes() {
         (BodyFormat::Ply, "big.ply", 0.25),
         (BodyFormat::Ply, "many_properties.ply", 1.0 / 3.0),
         (BodyFormat::Ply, "quads.ply", 1.0),
+        (BodyFormat::Ply, "strips.ply", 1.0),
+        (BodyFormat::Ply, "strips_text.ply", 1.0),
+        (BodyFormat::Stl, "no_count.stl", 0.25),
+        (BodyFormat::Stl, "facet_names.stl", 0.25),
     ] {
         let read = contents(format, &file(format, name)).unwrap();
         assert!((read - volume).abs() < 1e-12, "{name}: {read}");
+    }
+    // Exporters that write the head first and never go back to the count; strips; names behind "endfacet".
+    for count in [0, u32::MAX] {
+        let mut bytes = file(BodyFormat::Stl, "binary.stl");
+        bytes[80..84].copy_from_slice(&count.to_le_bytes());
+        assert_eq!(contents(BodyFormat::Stl, &bytes), Ok(0.25));
+        assert_eq!(BodyFormat::detect(&bytes, ""), Ok(BodyFormat::Stl));
+        bytes.pop();
+        refused(BodyFormat::Stl, &bytes, &["STL"]);
     }
     let names = |format: BodyFormat, name| -> Vec<String> {
         let solids = format.solids(&file(format, name)).unwrap();

@@ -50,6 +50,14 @@ fn airfoils_of_every_kind_are_the_same_body() {
         "lednicer_backwards.dat",
         "halves.dat",
         "counted.dat",
+        "text_after.dat",
+        "table_after.dat",
+        "two_titles.dat",
+        "mses_domain.dat",
+        "number_title.dat",
+        "two_numbers_title.dat",
+        "three_columns.dat",
+        "headings.dat",
     ] {
         let area = area(name).unwrap();
         assert!((area - expected).abs() < 1e-14, "{name}: {area}");
@@ -86,8 +94,10 @@ fn bad_airfoils_say_where() {
         &["line 2", "3 and 3 points", "2 follow"],
     );
     dat("a\n7\n0 0\n1 0\n0 1\n", &["line 2", "7 points", "3 follow"]);
-    dat("a\nb\n0 0\n", &["line 2", "two numbers"]);
-    dat("a\n0 0\n1 x\n", &["line 3", "finite"]);
+    dat("a\nb\n0 0\n", &["1 different points"]);
+    dat("a\n0.0 .....\n1 0\n0 1\n", &["line 2", "two"]);
+    dat("a\n0 0\n0.5 (0.1)\n1 0\n", &["line 3", "two"]);
+    dat("a\n0 0\n1.0 x\n", &["line 3", "finite"]);
     dat("", &["0 different points"]);
     dat("a\0b", &["text"]);
 }
