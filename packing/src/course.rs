@@ -6,11 +6,12 @@ use sphpack_neighbors::point;
 
 use crate::forces::{Forces, largest};
 use crate::lattice::Filling;
-use crate::observer::{Observer, Phase, Progress, Sample};
+use crate::observer::{Keeper, Observer, Phase, Progress, Sample};
 use crate::packed::{Packed, ParticleSurface, Seconds, StopReason};
 use crate::particles::{Kind, Particles};
-use crate::problem::Problem;
+use crate::problem::{PackingError, Problem};
 use crate::repulsion::Repulsion;
+use crate::state::{Damaged, State, Value, values};
 
 /// What a method keeps beside its particles.
 pub(crate) struct Course<'a> {
@@ -25,6 +26,25 @@ pub(crate) struct Course<'a> {
     pub(crate) earlier_evaluations: usize,
     /// Whether the observer wants an end.
     pub(crate) interrupted: bool,
+    /// Seconds of the runs that this one goes on from.
+    seconds_before: f64,
+    /// What is left of the state to go on from.
+    earlier: Vec<u8>,
+    /// The states of loops that are done, and of loops around the one that runs, in the order in which they began.
+    frames: Vec<Vec<u8>>,
+    /// Whether a state was asked for after the end was wanted. What comes then is not on the way of a run that goes on.
+    is_last_kept: bool,
+}
+
+/// Where a loop begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Begin {
+    /// At its beginning.
+    Anew,
+    /// Where an earlier run was in it.
+    Within,
+    /// At its end: an earlier run was in a later loop, or in one inside.
+    Beyond,
 }
 
 impl<'a> Course<'a> {
@@ -34,6 +54,7 @@ impl<'a> Course<'a> {
         tolerance: f64,
         max_evaluations: usize,
     ) -> Self {
+        let earlier = observer.keeper().and_then(Keeper::earlier);
         Self {
             begin: Instant::now(),
             observer,
@@ -51,6 +72,77 @@ impl<'a> Course<'a> {
             },
             earlier_evaluations: 0,
             interrupted: false,
+            seconds_before: 0.0,
+            earlier: earlier.unwrap_or_default(),
+            frames: Vec::new(),
+            is_last_kept: false,
+        }
+    }
+
+    fn seconds_so_far(&self) -> f64 {
+        self.seconds_before + self.begin.elapsed().as_secs_f64()
+    }
+
+    /// At the beginning of a loop: where an earlier run has been in it or beyond, `parts` become as they were there. Of
+    /// what this course keeps the rest comes back with the innermost loop.
+    pub(crate) fn go_on(&mut self, parts: &mut [&mut dyn State]) -> Result<Begin, PackingError> {
+        if self.earlier.is_empty() {
+            return Ok(Begin::Anew);
+        }
+        let earlier = std::mem::take(&mut self.earlier);
+        let mut from = &earlier[..];
+        let is_innermost = bool::take(&mut from)?;
+        for part in parts {
+            part.load(&mut from)?;
+        }
+        if !is_innermost {
+            self.earlier = from.to_vec();
+            return Ok(Begin::Beyond);
+        }
+        self.load(&mut from)?;
+        if !from.is_empty() {
+            return Err(Damaged.into());
+        }
+        Ok(Begin::Within)
+    }
+
+    /// Before a step, `parts` being all that the loop has come to: whether it is to end, once a state is kept where one
+    /// is wanted.
+    pub(crate) fn is_to_stop(&mut self, parts: &[&dyn State]) -> bool {
+        if !self.is_last_kept && self.observer.keeper().is_some_and(Keeper::is_due) {
+            self.keep(parts);
+        }
+        self.is_last_kept = self.interrupted;
+        self.interrupted
+    }
+
+    fn keep(&mut self, parts: &[&dyn State]) {
+        let mut state = Vec::new();
+        for frame in &self.frames {
+            false.put(&mut state);
+            state.extend_from_slice(frame);
+        }
+        true.put(&mut state);
+        for part in parts {
+            part.save(&mut state);
+        }
+        self.progress.seconds = self.seconds_so_far();
+        self.save(&mut state);
+        if let Some(keeper) = self.observer.keeper() {
+            keeper.keep(&state);
+        }
+    }
+
+    /// The first `place` loops stay as they are, the one after them has come to `parts`: it is done, or will be gone on
+    /// with from there when what comes now is done.
+    pub(crate) fn set_aside(&mut self, place: usize, parts: &[&dyn State]) {
+        self.frames.truncate(place);
+        if self.observer.keeper().is_some() {
+            let mut frame = Vec::new();
+            for part in parts {
+                part.save(&mut frame);
+            }
+            self.frames.push(frame);
         }
     }
 
@@ -62,13 +154,13 @@ impl<'a> Course<'a> {
 
     /// Tells the observer where `progress` stands.
     pub(crate) fn tell(&mut self) {
-        self.progress.seconds = self.begin.elapsed().as_secs_f64();
+        self.progress.seconds = self.seconds_so_far();
         self.interrupted |= self.observer.progress(&self.progress).is_break();
     }
 
     /// Notes the figures of the last evaluation.
     pub(crate) fn note<const D: usize>(&mut self, forces: &Forces<D>, particles: &Particles<D>) {
-        self.progress.seconds = self.begin.elapsed().as_secs_f64();
+        self.progress.seconds = self.seconds_so_far();
         let kind = &particles.kind;
         let of = |wanted: bool, value: f64| if wanted { value } else { 0.0 };
         self.history.push(Sample {
@@ -134,7 +226,7 @@ impl<'a> Course<'a> {
             }
         }
         self.count(forces);
-        self.seconds.total = self.begin.elapsed().as_secs_f64();
+        self.seconds.total = self.seconds_so_far();
         Packed {
             particles,
             domain: problem.domain,
@@ -160,5 +252,64 @@ impl<'a> Course<'a> {
             history: self.history,
             seconds: self.seconds,
         }
+    }
+}
+
+impl State for Course<'_> {
+    fn save(&self, out: &mut Vec<u8>) {
+        self.history.save(out);
+        self.seconds.save(out);
+        self.progress.save(out);
+        self.earlier_evaluations.save(out);
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        self.history.load(from)?;
+        self.seconds.load(from)?;
+        self.progress.load(from)?;
+        self.seconds_before = self.progress.seconds;
+        self.earlier_evaluations.load(from)
+    }
+}
+
+values!(Sample {
+    evaluation: usize,
+    energy: f64,
+    residual: f64,
+    linf: f64,
+    seconds: f64
+});
+
+values!(Seconds {
+    geometry: f64,
+    seeding: f64,
+    neighbors: f64,
+    forces: f64,
+    projection: f64,
+    total: f64,
+});
+
+values!(Progress {
+    phase: Phase,
+    evaluation: usize,
+    max_evaluations: usize,
+    criterion: f64,
+    tolerance: f64,
+    on_surface: usize,
+    target: usize,
+    seconds: f64,
+});
+
+impl Value for Phase {
+    const LEAST: usize = 1;
+
+    fn put(&self, out: &mut Vec<u8>) {
+        (*self as u8).put(out);
+    }
+
+    fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
+        let all = [Self::Geometry, Self::Seeding, Self::Capture, Self::Settling];
+        let place = usize::from(u8::take(from)?);
+        all.get(place).copied().ok_or(Damaged)
     }
 }

@@ -69,6 +69,25 @@ pub struct Sample {
 pub trait Observer {
     /// Called at the start of every phase, and every few evaluations. `Break` ends the packing with what there is.
     fn progress(&mut self, progress: &Progress) -> ControlFlow<()>;
+
+    /// Who keeps states to go on from, should this run end too early.
+    fn keeper(&mut self) -> Option<&mut dyn Keeper> {
+        None
+    }
+}
+
+/// Keeps states of a packing. A state is all that its loops have come to, as bytes: same method, same problem and a
+/// state give the bits that they would have given without a stop. What was placed before the loops is placed again.
+pub trait Keeper {
+    /// Whether a state is wanted now. Asked once before every step, and once more after [`Observer::progress`] has
+    /// stopped the packing.
+    fn is_due(&mut self) -> bool;
+
+    /// A state: some hundred bytes per particle. The packing waits meanwhile.
+    fn keep(&mut self, state: &[u8]);
+
+    /// The state to go on from; asked once, when a packing begins.
+    fn earlier(&mut self) -> Option<Vec<u8>>;
 }
 
 /// Watches nothing.

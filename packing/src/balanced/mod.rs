@@ -101,7 +101,10 @@ impl Balanced {
         let perfect_gamma = problem.perfect_gamma();
         let mut forces = Forces::of(problem, settling.early_repulsion(problem.spacing));
         let mut stop_reason = StopReason::Converged;
-        for round in 0..=MOST_WIDENINGS {
+        let mut round = 0;
+        course.go_on(&mut [&mut round, &mut width, &mut particles, &mut forces])?;
+        while round <= MOST_WIDENINGS {
+            course.set_aside(0, &[&round, &width, &particles, &forces]);
             let mut part = Part::of(problem, &particles, width);
             forces.targets_changed();
             let mut landscape = Landscape::new(
@@ -112,7 +115,7 @@ impl Balanced {
                 problem.support(),
             );
             landscape.keep_sides();
-            stop_reason = settling.run(&mut landscape, &mut course, perfect_gamma, round > 0);
+            stop_reason = settling.run(&mut landscape, &mut course, perfect_gamma, round > 0)?;
             forces = landscape.into_forces();
             part.write_back(&mut particles);
             let is_settled = stop_reason == StopReason::Converged;
@@ -123,6 +126,7 @@ impl Balanced {
                 break;
             }
             width *= WIDER;
+            round += 1;
         }
         Ok(course
             .end(
