@@ -1,5 +1,6 @@
 //! Particles within a surface that bounds them, relaxed step by step (004 §2.1).
 
+use std::io::{self, Write};
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -214,12 +215,12 @@ impl<'a, const D: usize> Confined<'a, D> {
 }
 
 impl<const D: usize> State for Confined<'_, D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.particles.save(out);
-        self.forces.save(out);
-        self.watch.save(out);
-        self.is_bounded.save(out);
-        self.seconds.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.particles.save(out)?;
+        self.forces.save(out)?;
+        self.watch.save(out)?;
+        self.is_bounded.save(out)?;
+        self.seconds.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
@@ -233,8 +234,8 @@ impl<const D: usize> State for Confined<'_, D> {
 
 /// Each for itself; how many there are is known.
 impl<const D: usize> State for Vec<Confined<'_, D>> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.iter().for_each(|one| one.save(out));
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.iter().try_for_each(|one| one.save(out))
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {

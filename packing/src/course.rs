@@ -1,5 +1,6 @@
 //! The course of a packing, the same for every method: clock, progress, history, and the result at its end.
 
+use std::io::{self, Write};
 use std::time::Instant;
 
 use sphpack_neighbors::point;
@@ -28,8 +29,9 @@ pub(crate) struct Course<'a> {
     pub(crate) interrupted: bool,
     /// Seconds of the runs that this one goes on from.
     seconds_before: f64,
-    /// What is left of the state to go on from.
+    /// The state to go on from, and how much of it was taken.
     earlier: Vec<u8>,
+    read: usize,
     /// The states of loops that are done, and of loops around the one that runs, in the order in which they began.
     frames: Vec<Vec<u8>>,
     /// Whether a state was asked for after the end was wanted. What comes then is not on the way of a run that goes on.
@@ -74,6 +76,7 @@ impl<'a> Course<'a> {
             interrupted: false,
             seconds_before: 0.0,
             earlier: earlier.unwrap_or_default(),
+            read: 0,
             frames: Vec::new(),
             is_last_kept: false,
         }
@@ -89,20 +92,24 @@ impl<'a> Course<'a> {
         if self.earlier.is_empty() {
             return Ok(Begin::Anew);
         }
-        let earlier = std::mem::take(&mut self.earlier);
-        let mut from = &earlier[..];
+        let mut from = &self.earlier[self.read..];
         let is_innermost = bool::take(&mut from)?;
         for part in parts {
             part.load(&mut from)?;
         }
         if !is_innermost {
-            self.earlier = from.to_vec();
+            self.read = self.earlier.len() - from.len();
             return Ok(Begin::Beyond);
         }
-        self.load(&mut from)?;
+        self.history.load(&mut from)?;
+        self.seconds.load(&mut from)?;
+        self.progress.load(&mut from)?;
+        self.earlier_evaluations.load(&mut from)?;
+        self.seconds_before = self.progress.seconds;
         if !from.is_empty() {
             return Err(Damaged.into());
         }
+        self.earlier = Vec::new();
         Ok(Begin::Within)
     }
 
@@ -117,19 +124,24 @@ impl<'a> Course<'a> {
     }
 
     fn keep(&mut self, parts: &[&dyn State]) {
-        let mut state = Vec::new();
-        for frame in &self.frames {
-            false.put(&mut state);
-            state.extend_from_slice(frame);
-        }
-        true.put(&mut state);
-        for part in parts {
-            part.save(&mut state);
-        }
         self.progress.seconds = self.seconds_so_far();
-        self.save(&mut state);
+        let frames = &self.frames;
+        let own: [&dyn State; 4] = [
+            &self.history,
+            &self.seconds,
+            &self.progress,
+            &self.earlier_evaluations,
+        ];
+        let write = |out: &mut dyn Write| -> io::Result<()> {
+            for frame in frames {
+                false.put(out)?;
+                out.write_all(frame)?;
+            }
+            true.put(out)?;
+            (parts.iter().chain(&own)).try_for_each(|part| part.save(out))
+        };
         if let Some(keeper) = self.observer.keeper() {
-            keeper.keep(&state);
+            keeper.keep(&write);
         }
     }
 
@@ -139,9 +151,8 @@ impl<'a> Course<'a> {
         self.frames.truncate(place);
         if self.observer.keeper().is_some() {
             let mut frame = Vec::new();
-            for part in parts {
-                part.save(&mut frame);
-            }
+            // Memory takes everything.
+            let _ = parts.iter().try_for_each(|part| part.save(&mut frame));
             self.frames.push(frame);
         }
     }
@@ -255,23 +266,6 @@ impl<'a> Course<'a> {
     }
 }
 
-impl State for Course<'_> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.history.save(out);
-        self.seconds.save(out);
-        self.progress.save(out);
-        self.earlier_evaluations.save(out);
-    }
-
-    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
-        self.history.load(from)?;
-        self.seconds.load(from)?;
-        self.progress.load(from)?;
-        self.seconds_before = self.progress.seconds;
-        self.earlier_evaluations.load(from)
-    }
-}
-
 values!(Sample {
     evaluation: usize,
     energy: f64,
@@ -303,8 +297,8 @@ values!(Progress {
 impl Value for Phase {
     const LEAST: usize = 1;
 
-    fn put(&self, out: &mut Vec<u8>) {
-        (*self as u8).put(out);
+    fn put(&self, out: &mut dyn Write) -> io::Result<()> {
+        (*self as u8).put(out)
     }
 
     fn take(from: &mut &[u8]) -> Result<Self, Damaged> {

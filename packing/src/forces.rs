@@ -1,6 +1,7 @@
 //! Density and forces of a particle set, evaluated again and again while it moves.
 
 use std::any::Any;
+use std::io::{self, Write};
 use std::time::Instant;
 
 use fearless_simd::Level;
@@ -419,15 +420,15 @@ impl<const D: usize> Forces<D> {
 
 /// To be evaluated before it is asked anything.
 impl<const D: usize> State for Forces<D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.repulsion.save(out);
-        self.levelling.save(out);
-        self.reach.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.repulsion.save(out)?;
+        self.levelling.save(out)?;
+        self.reach.save(out)?;
         let built_at = self.built_at.as_deref();
-        put_list(built_at.unwrap_or(self.list.reference()), out);
-        self.evaluations.save(out);
-        self.neighbor_seconds.save(out);
-        self.force_seconds.save(out);
+        put_list(built_at.unwrap_or(self.list.reference()), out)?;
+        self.evaluations.save(out)?;
+        self.neighbor_seconds.save(out)?;
+        self.force_seconds.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {

@@ -1,5 +1,7 @@
 //! Damped dynamics, as the papers' methods share it.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_neighbors::{Domain, point};
 
@@ -88,9 +90,9 @@ impl<const D: usize> Motion<D> {
 }
 
 impl<const D: usize> State for Motion<D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.velocity.save(out);
-        self.fastest.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.velocity.save(out)?;
+        self.fastest.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {

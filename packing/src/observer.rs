@@ -1,5 +1,6 @@
 //! Watching a packing while it runs, and stopping it.
 
+use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 /// What a packing is busy with.
@@ -83,8 +84,9 @@ pub trait Keeper {
     /// stopped the packing.
     fn is_due(&mut self) -> bool;
 
-    /// A state: some hundred bytes per particle. The packing waits meanwhile.
-    fn keep(&mut self, state: &[u8]);
+    /// A state, which `write` writes: some hundred bytes per particle, in small pieces. The packing waits meanwhile.
+    /// What comes of it is the keeper's affair.
+    fn keep(&mut self, write: &dyn Fn(&mut dyn Write) -> io::Result<()>);
 
     /// The state to go on from; asked once, when a packing begins.
     fn earlier(&mut self) -> Option<Vec<u8>>;

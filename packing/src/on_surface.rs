@@ -1,5 +1,7 @@
 //! Particles that live on surfaces: capturing them and keeping them there.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
@@ -70,9 +72,9 @@ impl<const D: usize> OnSurface<D> {
 }
 
 impl<const D: usize> State for OnSurface<D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.normal_of.save(out);
-        self.index.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.normal_of.save(out)?;
+        self.index.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {

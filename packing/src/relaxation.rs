@@ -146,7 +146,9 @@ impl Relaxation {
         if is_settled {
             stop_reason = StopReason::Converged;
         }
-        course.set_aside(0, &[&iteration, &is_settled, &solids, &fluid, &whole]);
+        if interface == Interface::Particles {
+            course.set_aside(0, &[&iteration, &is_settled, &solids, &fluid, &whole]);
+        }
         for one in solids.iter().chain([&fluid]) {
             course.count(&one.forces);
             course.seconds.forces += one.seconds[0];

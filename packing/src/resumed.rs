@@ -1,5 +1,6 @@
 //! Every method that iterates can be stopped anywhere and gone on with, to the same bits.
 
+use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 use sphpack_geometry::Ball;
@@ -43,12 +44,13 @@ impl Keeper for Recorder {
         true
     }
 
-    fn keep(&mut self, state: &[u8]) {
+    fn keep(&mut self, write: &dyn Fn(&mut dyn Write) -> io::Result<()>) {
+        self.last.clear();
+        write(&mut self.last).expect("memory takes everything");
         // The first few, and then ever rarer ones.
         if self.asked <= 2 || (self.asked + 1).is_power_of_two() || self.asked % 97 == 0 {
-            self.kept.push(state.to_vec());
+            self.kept.push(self.last.clone());
         }
-        self.last = state.to_vec();
     }
 
     fn earlier(&mut self) -> Option<Vec<u8>> {

@@ -1,5 +1,7 @@
 //! What an unfinished packing needs to go on: values as bytes, and back. What is read is not trusted.
 
+use std::io::{self, Write};
+
 use crate::particles::{Kind, Particles};
 
 /// A state that was not written by this version for this problem, or that was changed since.
@@ -10,7 +12,7 @@ pub struct Damaged;
 /// Something that can be saved, and brought back over one that began anew.
 pub(crate) trait State {
     /// Appends what cannot be found out again.
-    fn save(&self, out: &mut Vec<u8>);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()>;
 
     /// Takes what [`State::save`] appended off the front of `from`. Where that fails, this is left in between.
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged>;
@@ -22,15 +24,15 @@ pub(crate) trait Value: Sized {
     const LEAST: usize;
 
     /// Appends it: numbers as their bits, the lowest byte first.
-    fn put(&self, out: &mut Vec<u8>);
+    fn put(&self, out: &mut dyn Write) -> io::Result<()>;
 
     /// Takes it off the front.
     fn take(from: &mut &[u8]) -> Result<Self, Damaged>;
 }
 
 impl<T: Value> State for T {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.put(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.put(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
@@ -44,8 +46,8 @@ macro_rules! numbers {
         impl Value for $number {
             const LEAST: usize = size_of::<Self>();
 
-            fn put(&self, out: &mut Vec<u8>) {
-                out.extend_from_slice(&self.to_le_bytes());
+            fn put(&self, out: &mut dyn Write) -> io::Result<()> {
+                out.write_all(&self.to_le_bytes())
             }
 
             fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
@@ -65,8 +67,8 @@ const LARGEST_COUNT: u64 = 1 << 48;
 impl Value for usize {
     const LEAST: usize = 8;
 
-    fn put(&self, out: &mut Vec<u8>) {
-        (*self as u64).put(out);
+    fn put(&self, out: &mut dyn Write) -> io::Result<()> {
+        (*self as u64).put(out)
     }
 
     fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
@@ -79,8 +81,8 @@ impl Value for usize {
 impl Value for bool {
     const LEAST: usize = 1;
 
-    fn put(&self, out: &mut Vec<u8>) {
-        u8::from(*self).put(out);
+    fn put(&self, out: &mut dyn Write) -> io::Result<()> {
+        u8::from(*self).put(out)
     }
 
     fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
@@ -95,9 +97,9 @@ impl Value for bool {
 impl Value for Kind {
     const LEAST: usize = 1;
 
-    fn put(&self, out: &mut Vec<u8>) {
+    fn put(&self, out: &mut dyn Write) -> io::Result<()> {
         let place = Self::ALL.iter().position(|kind| kind == self);
-        (place.unwrap_or_default() as u8).put(out);
+        (place.unwrap_or_default() as u8).put(out)
     }
 
     fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
@@ -109,11 +111,12 @@ impl Value for Kind {
 impl<T: Value> Value for Option<T> {
     const LEAST: usize = 1;
 
-    fn put(&self, out: &mut Vec<u8>) {
-        self.is_some().put(out);
+    fn put(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.is_some().put(out)?;
         if let Some(value) = self {
-            value.put(out);
+            value.put(out)?;
         }
+        Ok(())
     }
 
     fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
@@ -124,10 +127,11 @@ impl<T: Value> Value for Option<T> {
 impl<T: Value + Copy, const N: usize> Value for [T; N] {
     const LEAST: usize = N * T::LEAST;
 
-    fn put(&self, out: &mut Vec<u8>) {
+    fn put(&self, out: &mut dyn Write) -> io::Result<()> {
         for value in self {
-            value.put(out);
+            value.put(out)?;
         }
+        Ok(())
     }
 
     fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
@@ -142,8 +146,8 @@ impl<T: Value + Copy, const N: usize> Value for [T; N] {
 impl<T: Value> Value for Vec<T> {
     const LEAST: usize = 8;
 
-    fn put(&self, out: &mut Vec<u8>) {
-        put_list(self, out);
+    fn put(&self, out: &mut dyn Write) -> io::Result<()> {
+        put_list(self, out)
     }
 
     fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
@@ -162,9 +166,10 @@ macro_rules! tuples {
             const LEAST: usize = 0 $(+ $name::LEAST)*;
 
             #[allow(non_snake_case, reason = "the parts go by the names of their types")]
-            fn put(&self, out: &mut Vec<u8>) {
+            fn put(&self, out: &mut dyn Write) -> io::Result<()> {
                 let ($($name,)*) = self;
-                $($name.put(out);)*
+                $($name.put(out)?;)*
+                Ok(())
             }
 
             fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
@@ -186,8 +191,9 @@ macro_rules! values {
         impl $(<$($generic)*>)? $crate::state::Value for $crate::state::values!(@ $name $([$($generic)*])?) {
             const LEAST: usize = 0 $(+ <$type as $crate::state::Value>::LEAST)*;
 
-            fn put(&self, out: &mut Vec<u8>) {
-                $($crate::state::Value::put(&self.$field, out);)*
+            fn put(&self, out: &mut dyn std::io::Write) -> std::io::Result<()> {
+                $($crate::state::Value::put(&self.$field, out)?;)*
+                Ok(())
             }
 
             fn take(from: &mut &[u8]) -> Result<Self, $crate::state::Damaged> {
@@ -202,12 +208,12 @@ macro_rules! values {
 pub(crate) use values;
 
 /// Appends a list, to be taken as a `Vec`.
-pub(crate) fn put_list<T: Value>(list: &[T], out: &mut Vec<u8>) {
-    list.len().put(out);
-    out.reserve(list.len() * T::LEAST);
+pub(crate) fn put_list<T: Value>(list: &[T], out: &mut dyn Write) -> io::Result<()> {
+    list.len().put(out)?;
     for value in list {
-        value.put(out);
+        value.put(out)?;
     }
+    Ok(())
 }
 
 /// Loads a list that has as many entries as it has already.
@@ -227,9 +233,9 @@ pub(crate) fn all_finite<const D: usize>(places: &[[f64; D]]) -> bool {
 
 /// What changes: ids, volumes and bodies stay as they were seeded, but see [`Captured`].
 impl<const D: usize> State for Particles<D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.position.save(out);
-        self.kind.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.position.save(out)?;
+        self.kind.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
@@ -246,9 +252,9 @@ pub(crate) struct Captured<'a, const D: usize> {
 }
 
 impl<const D: usize> State for Captured<'_, D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.particles.save(out);
-        self.particles.body.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.particles.save(out)?;
+        self.particles.body.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {

@@ -1,5 +1,7 @@
 //! Free particles that come near a surface, found without asking for every distance at every step.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
@@ -47,8 +49,8 @@ impl<const D: usize> Watch<D> {
 }
 
 impl<const D: usize> State for Watch<D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.seen.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.seen.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {

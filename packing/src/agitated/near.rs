@@ -1,5 +1,7 @@
 //! The repulsion of paper 000, eqs. 4 and 5.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_neighbors::{Domain, KdTree, point};
 
@@ -49,6 +51,7 @@ impl<const D: usize> Near<D> {
         }
         let places: Vec<[f64; D]> = self.seen.iter().map(|&p| domain.wrap(p)).collect();
         let Ok(tree) = KdTree::new(&places) else {
+            self.list = vec![Vec::new(); places.len()];
             return;
         };
         self.list = (0..places.len())
@@ -102,8 +105,8 @@ impl<const D: usize> Near<D> {
 
 /// To be followed by [`Near::find`].
 impl<const D: usize> State for Near<D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.seen.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.seen.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {

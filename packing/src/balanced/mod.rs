@@ -2,6 +2,7 @@
 
 mod band;
 mod clashes;
+mod round;
 pub(crate) mod shares;
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,7 @@ use crate::seeding::{Seeds, seed_lattice};
 pub use band::Band;
 use band::Part;
 use clashes::Clash;
+use round::Round;
 
 /// The balanced method.
 ///
@@ -90,7 +92,6 @@ impl Balanced {
 
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
-        let mut width = self.band.first_width(problem, settling.finish);
         let Seeds {
             mut particles,
             frozen_lattice,
@@ -101,10 +102,22 @@ impl Balanced {
         let perfect_gamma = problem.perfect_gamma();
         let mut forces = Forces::of(problem, settling.early_repulsion(problem.spacing));
         let mut stop_reason = StopReason::Converged;
-        let mut round = 0;
-        course.go_on(&mut [&mut round, &mut width, &mut particles, &mut forces])?;
+        let mut begin = Round {
+            number: 0,
+            width: self.band.first_width(problem, settling.finish),
+            particles: &mut particles,
+            forces: &mut forces,
+        };
+        course.go_on(&mut [&mut begin])?;
+        let (mut round, mut width) = (begin.number, begin.width);
         while round <= MOST_WIDENINGS {
-            course.set_aside(0, &[&round, &width, &particles, &forces]);
+            let begin = Round {
+                number: round,
+                width,
+                particles: &mut particles,
+                forces: &mut forces,
+            };
+            course.set_aside(0, &[&begin]);
             let mut part = Part::of(problem, &particles, width);
             forces.targets_changed();
             let mut landscape = Landscape::new(

@@ -1,5 +1,7 @@
 //! The papers' damped dynamics.
 
+use std::io::{self, Write};
+
 use super::{Landscape, Minimiser, Step, vectors};
 use crate::state::{Damaged, State};
 use sphpack_neighbors::point;
@@ -33,9 +35,9 @@ impl<const D: usize> Minimiser<D> for Damped<D> {
 
     fn reset(&mut self) {}
 
-    fn save(&self, out: &mut Vec<u8>) {
-        self.velocity.save(out);
-        self.fastest.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.velocity.save(out)?;
+        self.fastest.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8], _: usize) -> Result<(), Damaged> {

@@ -1,5 +1,7 @@
 //! FIRE, the fast inertial relaxation engine.
 
+use std::io::{self, Write};
+
 use super::{Landscape, Minimiser, Step, vectors};
 use crate::state::{Damaged, State, Value};
 use sphpack_neighbors::point;
@@ -87,10 +89,10 @@ impl<const D: usize> Minimiser<D> for Fire<D> {
         self.velocity.clear();
     }
 
-    fn save(&self, out: &mut Vec<u8>) {
-        self.velocity.save(out);
-        (self.dt_over_h, self.steer).save(out);
-        self.downhill.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.velocity.save(out)?;
+        (self.dt_over_h, self.steer).save(out)?;
+        self.downhill.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8], _: usize) -> Result<(), Damaged> {

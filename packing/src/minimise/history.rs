@@ -1,6 +1,7 @@
 //! What L-BFGS remembers, and the direction that it makes of it.
 
 use std::collections::VecDeque;
+use std::io::{self, Write};
 
 use rayon::prelude::*;
 
@@ -71,16 +72,16 @@ impl<const D: usize> History<D> {
     }
 
     /// Appends the pairs that are remembered, the oldest first, and all products.
-    pub(super) fn save(&self, out: &mut Vec<u8>) {
-        self.order.len().save(out);
+    pub(super) fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.order.len().save(out)?;
         for &slot in &self.order {
             let Pair { step, change } = &self.pairs[slot];
-            slot.save(out);
-            step.save(out);
-            change.save(out);
+            slot.save(out)?;
+            step.save(out)?;
+            change.save(out)?;
         }
-        put_list(&self.products, out);
-        self.with_force.save(out);
+        put_list(&self.products, out)?;
+        self.with_force.save(out)
     }
 
     /// What was saved, of vectors of `count` entries.

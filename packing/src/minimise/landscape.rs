@@ -1,5 +1,6 @@
 //! The energy over the places of the mobile particles.
 
+use std::io::{self, Write};
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -301,17 +302,17 @@ impl<'a, const D: usize> Landscape<'a, D> {
 
 /// Of the same problem, with the same evaluators and penalties; afterwards it is evaluated where it stands.
 impl<const D: usize> State for Landscape<'_, D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.particles.save(out);
-        self.forces.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.particles.save(out)?;
+        self.forces.save(out)?;
         if let Some(added) = &self.added {
-            added.save(out);
+            added.save(out)?;
         }
-        self.is_surface_held.save(out);
-        self.on_surface.save(out);
-        self.sides.save(out);
-        self.walls.save(out);
-        (self.projection_seconds, self.calm_seconds).save(out);
+        self.is_surface_held.save(out)?;
+        self.on_surface.save(out)?;
+        self.sides.save(out)?;
+        self.walls.save(out)?;
+        (self.projection_seconds, self.calm_seconds).save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {

@@ -1,5 +1,7 @@
 //! L-BFGS with a backtracking line search.
 
+use std::io::{self, Write};
+
 use super::history::{History, Taken};
 use super::{Landscape, Minimiser, Step, vectors};
 use crate::Damaged;
@@ -114,8 +116,8 @@ impl<const D: usize> Minimiser<D> for Lbfgs<D> {
         self.history.clear();
     }
 
-    fn save(&self, out: &mut Vec<u8>) {
-        self.history.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.history.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8], count: usize) -> Result<(), Damaged> {

@@ -45,6 +45,8 @@ pub use landscape::Landscape;
 pub use lbfgs::Lbfgs;
 pub use settling::{Finish, Settling};
 
+use std::io::{self, Write};
+
 use crate::Damaged;
 
 /// What a step came to.
@@ -66,7 +68,7 @@ pub trait Minimiser<const D: usize>: std::fmt::Debug {
     fn reset(&mut self);
 
     /// Appends all that earlier steps taught.
-    fn save(&self, out: &mut Vec<u8>);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()>;
 
     /// Takes what [`Minimiser::save`] appended off the front of `from`, for a landscape of `count` mobile particles.
     ///

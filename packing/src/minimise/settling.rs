@@ -1,5 +1,7 @@
 //! From any start to rest: the schedule that methods share.
 
+use std::io::{self, Write};
+
 use super::{Landscape, Minimiser, MinimiserKind, Step};
 use crate::course::{Begin, Course};
 use crate::forces::Levelling;
@@ -236,9 +238,9 @@ struct Descent<'s, 'l, const D: usize> {
 }
 
 impl<const D: usize> State for Descent<'_, '_, D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.landscape.save(out);
-        self.minimiser.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.landscape.save(out)?;
+        self.minimiser.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {

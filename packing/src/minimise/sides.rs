@@ -1,5 +1,7 @@
 //! Free particles stay on their side of every surface.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_neighbors::{Domain, KdTree, point};
 
@@ -147,8 +149,8 @@ impl<const D: usize> Sides<D> {
     }
 
     /// Appends who is watched, and what was seen.
-    pub(super) fn save(&self, out: &mut Vec<u8>) {
-        self.watched.save(out);
+    pub(super) fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.watched.save(out)
     }
 
     /// What was saved, of so many particles and surfaces.

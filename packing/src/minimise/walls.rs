@@ -1,5 +1,7 @@
 //! Free particles stay in the box.
 
+use std::io::{self, Write};
+
 use sphpack_neighbors::Domain;
 
 use crate::particles::{Kind, Particles};
@@ -56,8 +58,8 @@ impl<const D: usize> Walls<D> {
 }
 
 impl<const D: usize> State for Walls<D> {
-    fn save(&self, out: &mut Vec<u8>) {
-        self.held.save(out);
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.held.save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
