@@ -79,7 +79,7 @@ fn assert_same<const D: usize>(a: &Packed<D>, b: &Packed<D>, what: &str) {
 }
 
 /// That states change nothing, that from each of them the same comes, and that a stop loses nothing.
-fn check<const D: usize>(pack: Pack<'_, D>) -> Vec<Vec<u8>> {
+fn check<const D: usize>(pack: Pack<'_, D>) {
     let plain = pack(&mut Silent).expect("a sound problem");
     let mut recorder = Recorder::default();
     let recorded = pack(&mut recorder).expect("a sound problem");
@@ -109,7 +109,6 @@ fn check<const D: usize>(pack: Pack<'_, D>) -> Vec<Vec<u8>> {
     }
     assert!(stops > 1, "{stops}");
     damage(pack, &recorder.kept[recorder.kept.len() / 2]);
-    recorder.kept
 }
 
 /// States that were changed are refused, or lead to something else; they never make it panic.
@@ -162,7 +161,7 @@ fn balanced() {
 }
 
 #[test]
-fn balanced_in_a_periodic_box_with_a_band_that_widens() {
+fn balanced_in_a_periodic_box_with_a_band() {
     let mut domain = Domain::new([-3.0; 2], [3.0; 2]);
     domain.periodic = [true, false];
     let problem = Problem::new(domain, 0.1).body("disc", Ball::new([0.0; 2], 0.6).expect("a disc"));
@@ -173,9 +172,7 @@ fn balanced_in_a_periodic_box_with_a_band_that_widens() {
         },
         ..Balanced::default()
     };
-    let states = check(&|observer| balanced.pack(&problem, observer));
-    // A state begins with the round of the band.
-    assert!(states.iter().any(|state| state[1] > 0), "it widens");
+    check(&|observer| balanced.pack(&problem, observer));
 }
 
 #[test]
