@@ -30,6 +30,7 @@
 
 mod audit;
 mod body_file;
+mod checkpoint;
 mod cloud;
 pub mod command;
 mod content;

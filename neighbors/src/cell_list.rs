@@ -121,6 +121,12 @@ impl<const D: usize> CellList<D> {
         self.builds
     }
 
+    /// The positions at the last build: a list built from these again, with the same shells and targets, has the same
+    /// slots. Empty where the next [`CellList::update`] builds anew.
+    pub fn reference(&self) -> &[[f64; D]] {
+        &self.reference
+    }
+
     /// Number of targets.
     pub fn targets(&self) -> usize {
         self.targets

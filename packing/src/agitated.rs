@@ -6,7 +6,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sphpack_neighbors::{KdTree, point};
 
-use crate::course::Course;
+use crate::course::{Begin, Course};
 use crate::forces::{Forces, largest};
 use crate::motion::Motion;
 use crate::observer::{Observer, Phase};
@@ -16,6 +16,7 @@ use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::Repulsion;
 use crate::seeding::{Seeds, particle_surfaces, seed};
+use crate::state::Captured;
 
 mod near;
 #[cfg(test)]
@@ -142,7 +143,6 @@ impl Agitated {
         let size = problem.spacing;
         let period = self.revolution * size;
         let round = self.steady_revolutions * if D == 2 { period } else { 2.0 * period };
-        let mut is_stirred = true;
         let slow = 0.5 * size * TAU / period;
         let convert_every = (0.1 / (slow * self.largest_step)).ceil().max(1.0) as usize;
         let zeta = self.damping / size;
@@ -152,12 +152,46 @@ impl Agitated {
         let mut acceleration = Vec::new();
         let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
-        let (mut time, mut changed_at, mut looked_at) = (0.0, 0.0, 0.0);
-        let mut error_then = f64::INFINITY;
+        on_surface.refresh(&particles);
+        let mut times = [0.0; 3];
+        let (mut is_stirred, mut error_then) = (true, f64::INFINITY);
+        let (mut first, bodies) = (0, surfaces.len());
         let mut stop_reason = StopReason::IterationLimit;
         course.enter(Phase::Capture);
-        for iteration in 0..self.max_iterations {
-            if course.interrupted {
+        let begin = course.go_on(&mut [
+            &mut first,
+            &mut times,
+            &mut is_stirred,
+            &mut error_then,
+            &mut Captured {
+                particles: &mut particles,
+                bodies,
+            },
+            &mut on_surface,
+            &mut motion,
+            &mut forces,
+            &mut near,
+        ])?;
+        if begin == Begin::Within {
+            near.find(&particles, &problem.domain, (REACH[1] + SKIN) * size);
+            agitators.retain(|_| is_stirred);
+        }
+        let [mut time, mut changed_at, mut looked_at] = times;
+        for iteration in first..self.max_iterations {
+            if course.is_to_stop(&[
+                &iteration,
+                &[time, changed_at, looked_at],
+                &is_stirred,
+                &error_then,
+                &Captured {
+                    particles: &mut particles,
+                    bodies,
+                },
+                &on_surface,
+                &motion,
+                &forces,
+                &near,
+            ]) {
                 break;
             }
             if iteration % convert_every == 0 && is_stirred {

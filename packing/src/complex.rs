@@ -84,8 +84,8 @@ impl Complex {
         );
         let mut course = Course::new(observer, tolerance, most);
         let mut relaxed = (self.relaxation).relax(problem, &mut course, Interface::Particles)?;
-        if self.levelling > 0.0 && most > 0 && !course.interrupted {
-            relaxed = self.level(problem, relaxed, &mut course);
+        if self.levelling > 0.0 && most > 0 {
+            relaxed = self.level(problem, relaxed, &mut course)?;
         }
         Ok(relaxed.end(problem, course))
     }
@@ -95,7 +95,7 @@ impl Complex {
         problem: &Problem<D>,
         mut relaxed: Relaxed<D>,
         course: &mut Course<'_>,
-    ) -> Relaxed<D> {
+    ) -> Result<Relaxed<D>, PackingError> {
         let settling = Settling {
             residual_tolerance: Some(TOLERANCE),
             max_evaluations: self.relaxation.max_iterations,
@@ -123,7 +123,7 @@ impl Complex {
         landscape.add(self.solids(problem, is_solid, &settling));
         landscape.calm(Calm::of(first_layer, self.calm));
         landscape.keep_sides(&problem.bodies);
-        let reason = settling.run(&mut landscape, course, fluid_gamma, true);
+        let reason = settling.run(&mut landscape, course, fluid_gamma, true)?;
         landscape
             .added()
             .into_iter()
@@ -133,7 +133,7 @@ impl Complex {
         if relaxed.stop_reason == StopReason::Converged {
             relaxed.stop_reason = reason;
         }
-        relaxed
+        Ok(relaxed)
     }
 
     /// The evaluator by the solids' h, which levels them.

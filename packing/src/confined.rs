@@ -1,5 +1,6 @@
 //! Particles within a surface that bounds them, relaxed step by step (004 §2.1).
 
+use std::io::{self, Write};
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -9,6 +10,7 @@ use sphpack_neighbors::point;
 use crate::confinement::Confinement;
 use crate::forces::{Forces, blocked_sum, largest};
 use crate::particles::{Kind, Particles};
+use crate::state::{Damaged, State, load_as_many};
 use crate::watch::Watch;
 
 /// The surface that bounds: its nearest place, and how far a place is beyond it (negative within).
@@ -209,5 +211,34 @@ impl<'a, const D: usize> Confined<'a, D> {
         } else {
             1.0 / (h * h)
         }
+    }
+}
+
+impl<const D: usize> State for Confined<'_, D> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.particles.save(out)?;
+        self.forces.save(out)?;
+        self.watch.save(out)?;
+        self.is_bounded.save(out)?;
+        self.seconds.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        self.particles.load(from)?;
+        self.forces.load(from)?;
+        self.watch.load(from)?;
+        load_as_many(&mut self.is_bounded, from)?;
+        self.seconds.load(from)
+    }
+}
+
+/// Each for itself; how many there are is known.
+impl<const D: usize> State for Vec<Confined<'_, D>> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.iter().try_for_each(|one| one.save(out))
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        self.iter_mut().try_for_each(|one| one.load(from))
     }
 }

@@ -97,12 +97,12 @@ impl Coupled {
 
         course.enter(Phase::Capture);
         if !problem.bodies.is_empty() {
-            self.pack_apart(problem, &mut inner, &mut course, &|p, body| {
+            self.pack_apart(problem, &mut inner, &mut course, 0, &|p, body| {
                 surfaces[usize::from(body)].surface.closest(p)
-            });
-            self.pack_apart(problem, &mut outer, &mut course, &|p, _| {
+            })?;
+            self.pack_apart(problem, &mut outer, &mut course, 1, &|p, _| {
                 outer_surface(problem, p)
-            });
+            })?;
         }
 
         // Both domains: only the inner surface's particles keep to it.
@@ -116,7 +116,7 @@ impl Coupled {
         let mut particles = inner;
         course.enter(Phase::Settling);
         let (stop_reason, forces) =
-            self.pack_together(problem, &mut particles, &surfaces, &mut course);
+            self.pack_together(problem, &mut particles, &surfaces, &mut course)?;
         Ok(course
             .end(
                 problem,
@@ -129,15 +129,16 @@ impl Coupled {
             .with_known_sides())
     }
 
-    /// Algorithm 4 on one domain. `nearest` tells the nearest place on its surface, seen from a place of a body's, and
+    /// Algorithm 4 on one domain, as loop `place` of the course. `nearest` tells the nearest place on its surface, seen from a place of a body's, and
     /// how far beyond it that is (negative within).
     fn pack_apart<const D: usize>(
         &self,
         problem: &Problem<D>,
         particles: &mut Particles<D>,
         course: &mut Course<'_>,
+        place: usize,
         nearest: &(dyn Fn([f64; D], u16) -> Closest<D> + Sync),
-    ) {
+    ) -> Result<(), PackingError> {
         let (h, spacing) = (problem.smoothing_length(), problem.spacing);
         let zeta = self.damping * SYMMETRIC.sqrt() / spacing;
         let cohesion = self.cohesion * problem.support() / h;
@@ -147,9 +148,28 @@ impl Coupled {
         let mut on_surface = OnSurface::default();
         on_surface.refresh(particles);
         let mut watch = Watch::new(particles.len());
-        let begin = course.progress.evaluation;
-        for iteration in 1..=self.apart_iterations {
-            if course.interrupted {
+        let (mut begin, mut first) = (course.progress.evaluation, 1);
+        course.go_on(&mut [
+            &mut begin,
+            &mut first,
+            particles,
+            &mut on_surface,
+            &mut watch,
+            &mut motion,
+            &mut forces,
+            &mut pull,
+        ])?;
+        for iteration in first..=self.apart_iterations {
+            if course.is_to_stop(&[
+                &begin,
+                &iteration,
+                particles,
+                &on_surface,
+                &watch,
+                &motion,
+                &forces,
+                &pull,
+            ]) {
                 break;
             }
             // UpdateNeighbors, ComputeAccelerations (eqs. 27 and 28)
@@ -179,8 +199,22 @@ impl Coupled {
                 course.note(&forces, particles);
             }
         }
+        course.set_aside(
+            place,
+            &[
+                &begin,
+                &(self.apart_iterations + 1),
+                particles,
+                &on_surface,
+                &watch,
+                &motion,
+                &forces,
+                &pull,
+            ],
+        );
         course.count(&forces);
         course.count(&pull);
+        Ok(())
     }
 
     /// The second pass of algorithm 5.
@@ -190,7 +224,7 @@ impl Coupled {
         particles: &mut Particles<D>,
         surfaces: &[ParticleSurface<D>],
         course: &mut Course<'_>,
-    ) -> (StopReason, Forces<D>) {
+    ) -> Result<(StopReason, Forces<D>), PackingError> {
         let h = problem.smoothing_length();
         let zeta = self.damping * SYMMETRIC.sqrt() / problem.spacing;
         let mut forces = Forces::of(problem, Repulsion::none());
@@ -198,9 +232,17 @@ impl Coupled {
         let mut on_surface = OnSurface::default();
         on_surface.refresh(particles);
         course.progress.on_surface = on_surface.index.len();
-        let begin = course.progress.evaluation;
-        for iteration in 1..=self.max_iterations {
-            if course.interrupted {
+        let (mut begin, mut first) = (course.progress.evaluation, 1);
+        course.go_on(&mut [
+            &mut begin,
+            &mut first,
+            particles,
+            &mut on_surface,
+            &mut motion,
+            &mut forces,
+        ])?;
+        for iteration in first..=self.max_iterations {
+            if course.is_to_stop(&[&begin, &iteration, particles, &on_surface, &motion, &forces]) {
                 break;
             }
             forces.evaluate(particles);
@@ -216,12 +258,12 @@ impl Coupled {
                 course.tell();
                 course.note(&forces, particles);
                 if course.progress.criterion < self.velocity_tolerance {
-                    return (StopReason::Converged, forces);
+                    return Ok((StopReason::Converged, forces));
                 }
             }
         }
         forces.evaluate(particles);
-        (StopReason::IterationLimit, forces)
+        Ok((StopReason::IterationLimit, forces))
     }
 }
 

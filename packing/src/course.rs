@@ -1,16 +1,18 @@
 //! The course of a packing, the same for every method: clock, progress, history, and the result at its end.
 
+use std::io::{self, Write};
 use std::time::Instant;
 
 use sphpack_neighbors::point;
 
 use crate::forces::{Forces, largest};
 use crate::lattice::Filling;
-use crate::observer::{Observer, Phase, Progress, Sample};
+use crate::observer::{Keeper, Observer, Phase, Progress, Sample};
 use crate::packed::{Packed, ParticleSurface, Seconds, StopReason};
 use crate::particles::{Kind, Particles};
-use crate::problem::Problem;
+use crate::problem::{PackingError, Problem};
 use crate::repulsion::Repulsion;
+use crate::state::{Damaged, State, Value, values};
 
 /// What a method keeps beside its particles.
 pub(crate) struct Course<'a> {
@@ -25,6 +27,26 @@ pub(crate) struct Course<'a> {
     pub(crate) earlier_evaluations: usize,
     /// Whether the observer wants an end.
     pub(crate) interrupted: bool,
+    /// Seconds of the runs that this one goes on from.
+    seconds_before: f64,
+    /// The state to go on from, and how much of it was taken.
+    earlier: Vec<u8>,
+    read: usize,
+    /// The states of loops that are done, and of loops around the one that runs, in the order in which they began.
+    frames: Vec<Vec<u8>>,
+    /// Whether a state was asked for after the end was wanted. What comes then is not on the way of a run that goes on.
+    is_last_kept: bool,
+}
+
+/// Where a loop begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Begin {
+    /// At its beginning.
+    Anew,
+    /// Where an earlier run was in it.
+    Within,
+    /// At its end: an earlier run was in a later loop, or in one inside.
+    Beyond,
 }
 
 impl<'a> Course<'a> {
@@ -34,6 +56,7 @@ impl<'a> Course<'a> {
         tolerance: f64,
         max_evaluations: usize,
     ) -> Self {
+        let earlier = observer.keeper().and_then(Keeper::earlier);
         Self {
             begin: Instant::now(),
             observer,
@@ -51,6 +74,86 @@ impl<'a> Course<'a> {
             },
             earlier_evaluations: 0,
             interrupted: false,
+            seconds_before: 0.0,
+            earlier: earlier.unwrap_or_default(),
+            read: 0,
+            frames: Vec::new(),
+            is_last_kept: false,
+        }
+    }
+
+    fn seconds_so_far(&self) -> f64 {
+        self.seconds_before + self.begin.elapsed().as_secs_f64()
+    }
+
+    /// At the beginning of a loop: where an earlier run has been in it or beyond, `parts` become as they were there. Of
+    /// what this course keeps the rest comes back with the innermost loop.
+    pub(crate) fn go_on(&mut self, parts: &mut [&mut dyn State]) -> Result<Begin, PackingError> {
+        if self.earlier.is_empty() {
+            return Ok(Begin::Anew);
+        }
+        let mut from = &self.earlier[self.read..];
+        let is_innermost = bool::take(&mut from)?;
+        for part in parts {
+            part.load(&mut from)?;
+        }
+        if !is_innermost {
+            self.read = self.earlier.len() - from.len();
+            return Ok(Begin::Beyond);
+        }
+        self.history.load(&mut from)?;
+        self.seconds.load(&mut from)?;
+        self.progress.load(&mut from)?;
+        self.earlier_evaluations.load(&mut from)?;
+        self.seconds_before = self.progress.seconds;
+        if !from.is_empty() {
+            return Err(Damaged.into());
+        }
+        self.earlier = Vec::new();
+        Ok(Begin::Within)
+    }
+
+    /// Before a step, `parts` being all that the loop has come to: whether it is to end, once a state is kept where one
+    /// is wanted.
+    pub(crate) fn is_to_stop(&mut self, parts: &[&dyn State]) -> bool {
+        if !self.is_last_kept && self.observer.keeper().is_some_and(Keeper::is_due) {
+            self.keep(parts);
+        }
+        self.is_last_kept = self.interrupted;
+        self.interrupted
+    }
+
+    fn keep(&mut self, parts: &[&dyn State]) {
+        self.progress.seconds = self.seconds_so_far();
+        let frames = &self.frames;
+        let own: [&dyn State; 4] = [
+            &self.history,
+            &self.seconds,
+            &self.progress,
+            &self.earlier_evaluations,
+        ];
+        let write = |out: &mut dyn Write| -> io::Result<()> {
+            for frame in frames {
+                false.put(out)?;
+                out.write_all(frame)?;
+            }
+            true.put(out)?;
+            (parts.iter().chain(&own)).try_for_each(|part| part.save(out))
+        };
+        if let Some(keeper) = self.observer.keeper() {
+            keeper.keep(&write);
+        }
+    }
+
+    /// The first `place` loops stay as they are, the one after them has come to `parts`: it is done, or will be gone on
+    /// with from there when what comes now is done.
+    pub(crate) fn set_aside(&mut self, place: usize, parts: &[&dyn State]) {
+        self.frames.truncate(place);
+        if self.observer.keeper().is_some() {
+            let mut frame = Vec::new();
+            // Memory takes everything.
+            let _ = parts.iter().try_for_each(|part| part.save(&mut frame));
+            self.frames.push(frame);
         }
     }
 
@@ -62,13 +165,13 @@ impl<'a> Course<'a> {
 
     /// Tells the observer where `progress` stands.
     pub(crate) fn tell(&mut self) {
-        self.progress.seconds = self.begin.elapsed().as_secs_f64();
+        self.progress.seconds = self.seconds_so_far();
         self.interrupted |= self.observer.progress(&self.progress).is_break();
     }
 
     /// Notes the figures of the last evaluation.
     pub(crate) fn note<const D: usize>(&mut self, forces: &Forces<D>, particles: &Particles<D>) {
-        self.progress.seconds = self.begin.elapsed().as_secs_f64();
+        self.progress.seconds = self.seconds_so_far();
         let kind = &particles.kind;
         let of = |wanted: bool, value: f64| if wanted { value } else { 0.0 };
         self.history.push(Sample {
@@ -134,7 +237,7 @@ impl<'a> Course<'a> {
             }
         }
         self.count(forces);
-        self.seconds.total = self.begin.elapsed().as_secs_f64();
+        self.seconds.total = self.seconds_so_far();
         Packed {
             particles,
             domain: problem.domain,
@@ -161,5 +264,47 @@ impl<'a> Course<'a> {
             history: self.history,
             seconds: self.seconds,
         }
+    }
+}
+
+values!(Sample {
+    evaluation: usize,
+    energy: f64,
+    residual: f64,
+    linf: f64,
+    seconds: f64
+});
+
+values!(Seconds {
+    geometry: f64,
+    seeding: f64,
+    neighbors: f64,
+    forces: f64,
+    projection: f64,
+    total: f64,
+});
+
+values!(Progress {
+    phase: Phase,
+    evaluation: usize,
+    max_evaluations: usize,
+    criterion: f64,
+    tolerance: f64,
+    on_surface: usize,
+    target: usize,
+    seconds: f64,
+});
+
+impl Value for Phase {
+    const LEAST: usize = 1;
+
+    fn put(&self, out: &mut dyn Write) -> io::Result<()> {
+        (*self as u8).put(out)
+    }
+
+    fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
+        let all = [Self::Geometry, Self::Seeding, Self::Capture, Self::Settling];
+        let place = usize::from(u8::take(from)?);
+        all.get(place).copied().ok_or(Damaged)
     }
 }

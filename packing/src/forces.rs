@@ -1,6 +1,7 @@
 //! Density and forces of a particle set, evaluated again and again while it moves.
 
 use std::any::Any;
+use std::io::{self, Write};
 use std::time::Instant;
 
 use fearless_simd::Level;
@@ -12,6 +13,7 @@ use crate::pair_sums::{self, GradientLoop, PairLoop, Shells, Sums};
 use crate::particles::Particles;
 use crate::problem::Problem;
 use crate::repulsion::Repulsion;
+use crate::state::{Damaged, State, Value, all_finite, put_list, values};
 
 /// Particles per block of a reduction. Fixed, so that sums have the same bits for any number of threads.
 const REDUCTION_BLOCK: usize = 4096;
@@ -96,6 +98,8 @@ pub struct Forces<const D: usize> {
     /// Which particles have their density levelled, by their number; all where it is empty.
     pub levelled: Vec<bool>,
     list: CellList<D>,
+    /// Where the list of an earlier run was built: built there again, it has the same slots, and sums the same bits.
+    built_at: Option<Vec<[f64; D]>>,
     /// The farthest that the repulsion has reached so far; what is farther in the list is not asked for it.
     reach: f64,
     level: Level,
@@ -159,6 +163,7 @@ impl<const D: usize> Forces<D> {
             levelling: None,
             levelled: Vec::new(),
             list: CellList::new(domain, support.max(repulsion.reach())).with_skin(skin),
+            built_at: None,
             reach: 0.0,
             level: Level::new(),
             slots: Vec::new(),
@@ -197,12 +202,17 @@ impl<const D: usize> Forces<D> {
         is_target: impl Fn(usize) -> bool + Sync,
     ) {
         let start = Instant::now();
+        if let Some(places) = self
+            .built_at
+            .take_if(|places| places.len() == positions.len())
+        {
+            self.set_shells();
+            self.list.update(&places, &is_target);
+            self.sums.resize(self.list.targets(), Sums::ZERO);
+        }
         if self.list.builds() == 0 || self.repulsion.reach() > self.reach {
             self.reach = self.repulsion.reach().max(self.reach);
-            let reach = self.reach;
-            let shells = Shells { reach };
-            self.list
-                .set_shells(self.interaction.with::<D, _>(self.smoothing_length, shells));
+            self.set_shells();
         }
         if self.list.update(positions, is_target) {
             self.sums.resize(self.list.targets(), Sums::ZERO);
@@ -217,6 +227,12 @@ impl<const D: usize> Forces<D> {
         self.evaluations += 1;
         self.neighbor_seconds += (listed - start).as_secs_f64();
         self.force_seconds += listed.elapsed().as_secs_f64();
+    }
+
+    fn set_shells(&mut self) {
+        let shells = Shells { reach: self.reach };
+        self.list
+            .set_shells(self.interaction.with::<D, _>(self.smoothing_length, shells));
     }
 
     /// The second pass, which needs every Γ.
@@ -277,6 +293,7 @@ impl<const D: usize> Forces<D> {
     /// Must be called when a particle starts or stops being frozen.
     pub fn targets_changed(&mut self) {
         self.list.invalidate();
+        self.built_at = None;
     }
 
     #[inline]
@@ -377,6 +394,14 @@ impl<const D: usize> Forces<D> {
         self.evaluations
     }
 
+    /// Evaluates once more what an earlier run has evaluated and counted.
+    pub(crate) fn evaluate_again(&mut self, particles: &Particles<D>) {
+        let spent = (self.neighbor_seconds, self.force_seconds);
+        self.evaluate(particles);
+        self.evaluations -= 1;
+        (self.neighbor_seconds, self.force_seconds) = spent;
+    }
+
     /// Seconds spent on keeping neighbour lists, and on the pair loop.
     pub fn seconds(&self) -> (f64, f64) {
         (self.neighbor_seconds, self.force_seconds)
@@ -392,6 +417,41 @@ impl<const D: usize> Forces<D> {
         &self.list
     }
 }
+
+/// To be evaluated before it is asked anything.
+impl<const D: usize> State for Forces<D> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.repulsion.save(out)?;
+        self.levelling.save(out)?;
+        self.reach.save(out)?;
+        let built_at = self.built_at.as_deref();
+        put_list(built_at.unwrap_or(self.list.reference()), out)?;
+        self.evaluations.save(out)?;
+        self.neighbor_seconds.save(out)?;
+        self.force_seconds.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        self.repulsion.load(from)?;
+        self.levelling.load(from)?;
+        self.reach.load(from)?;
+        let places = Vec::take(from)?;
+        if !all_finite(&places) {
+            return Err(Damaged);
+        }
+        self.targets_changed();
+        self.built_at = (!places.is_empty()).then_some(places);
+        self.evaluations.load(from)?;
+        self.neighbor_seconds.load(from)?;
+        self.force_seconds.load(from)
+    }
+}
+
+values!(Levelling {
+    stiffness: f64,
+    target: f64,
+    leeway: f64
+});
 
 #[inline]
 fn is_levelled(levelled: &[bool], i: usize) -> bool {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::course::Course;
+use crate::course::{Begin, Course};
 use crate::forces::Forces;
 use crate::minimise::{Landscape, Settling};
 use crate::motion::Motion;
@@ -14,6 +14,7 @@ use crate::predicted::{hold, predict};
 use crate::problem::{PackingError, Problem};
 use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::{Seeds, fix_corners, particle_surfaces, seed};
+use crate::state::Captured;
 
 /// The hybrid method (001 §3.1, algorithms 1 and 2), with its constants.
 ///
@@ -110,17 +111,42 @@ impl Hybrid {
         let mut on_surface = OnSurface::default();
         on_surface.refresh(&particles);
         on_surface.project(&mut particles, &surfaces, problem.support());
-        let mut interval = self.projection_frequency as f64;
-        let mut next_capture = if self.predicted > 0.0 {
+        let interval = self.projection_frequency as f64;
+        let next_capture = if self.predicted > 0.0 {
             self.projection_frequency
         } else {
             0
         };
-        let (mut iteration, mut empty_count) = (0, 0);
+        let mut at = (0, 0, interval, next_capture);
         let mut stop_reason = StopReason::IterationLimit;
         course.progress.phase = Phase::Capture;
+        let bodies = surfaces.len();
+        let begin = course.go_on(&mut [
+            &mut at,
+            &mut Captured {
+                particles: &mut particles,
+                bodies,
+            },
+            &mut on_surface,
+            &mut motion,
+            &mut forces,
+        ])?;
+        let (mut iteration, mut empty_count, mut interval, mut next_capture) = at;
+        let mut is_captured = begin == Begin::Beyond;
 
-        while iteration < self.max_iterations && !course.interrupted {
+        while !is_captured && iteration < self.max_iterations {
+            if course.is_to_stop(&[
+                &(iteration, empty_count, interval, next_capture),
+                &Captured {
+                    particles: &mut particles,
+                    bodies,
+                },
+                &on_surface,
+                &motion,
+                &forces,
+            ]) {
+                break;
+            }
             // UpdateNeighbors, ComputeAccelerations
             forces.evaluate(&particles);
             let dt = motion.time_step(h, zeta, 1.0);
@@ -164,7 +190,8 @@ impl Hybrid {
                 course.progress.on_surface = on_surface.index.len() + particles.count(Kind::Fixed);
                 course.tell();
                 course.note(&forces, &particles);
-                if settled && self.settling.is_some() {
+                is_captured = settled && self.settling.is_some();
+                if is_captured {
                     break;
                 }
                 if settled && course.progress.criterion < self.velocity_tolerance {
@@ -175,13 +202,27 @@ impl Hybrid {
         }
         course.progress.evaluation = iteration;
         if let Some(settling) = &self.settling
+            && is_captured
             && iteration < self.max_iterations
-            && !course.interrupted
         {
+            course.set_aside(
+                0,
+                &[
+                    &(iteration, empty_count, interval, next_capture),
+                    &Captured {
+                        particles: &mut particles,
+                        bodies,
+                    },
+                    &on_surface,
+                    &motion,
+                    &forces,
+                ],
+            );
             course.progress.tolerance = settling.tolerance();
             let reach = problem.support();
             let mut landscape = Landscape::new(&mut particles, &surfaces, forces, spacing, reach);
-            stop_reason = settling.run(&mut landscape, &mut course, problem.perfect_gamma(), false);
+            stop_reason =
+                settling.run(&mut landscape, &mut course, problem.perfect_gamma(), false)?;
             forces = landscape.into_forces();
         }
         for i in unmoved {

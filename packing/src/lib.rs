@@ -53,11 +53,14 @@ pub mod repulsion;
 pub mod seeding;
 mod slabs;
 mod standard;
+mod state;
 mod triangulated;
 mod watch;
 
 #[cfg(test)]
 mod published;
+#[cfg(test)]
+mod resumed;
 #[cfg(test)]
 mod tests;
 
@@ -74,7 +77,7 @@ pub use lattice::Lattice;
 pub use masses::{MassCorrection, correct_masses};
 pub use method::Method;
 pub use minimise::{Finish, MinimiserKind, Settling};
-pub use observer::{Observer, Phase, Progress, Sample, Silent};
+pub use observer::{Keeper, Observer, Phase, Progress, Sample, Silent};
 pub use packed::{Omitted, Packed, ParticleSurface, Seconds, StopReason};
 pub use particles::{Kind, Particles};
 pub use ppa::Ppa;
@@ -82,4 +85,5 @@ pub use problem::{Body, Estimate, FrozenLayout, PackingError, Problem};
 pub use quality::{DensityQuality, Fields, Quality, ResidualQuality, SurfaceQuality};
 pub use relaxation::Relaxation;
 pub use standard::Standard;
+pub use state::Damaged;
 pub use triangulated::Triangulated;

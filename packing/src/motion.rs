@@ -1,11 +1,14 @@
 //! Damped dynamics, as the papers' methods share it.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_neighbors::{Domain, point};
 
 use crate::forces::largest;
 use crate::on_surface::OnSurface;
 use crate::particles::{Kind, Particles};
+use crate::state::{Damaged, State, load_as_many};
 
 /// Velocities, and how they change.
 #[derive(Debug, Clone)]
@@ -83,5 +86,17 @@ impl<const D: usize> Motion<D> {
             0.5 * point::dot(self.velocity[i], self.velocity[i])
         });
         sum / mobile.len().max(1) as f64
+    }
+}
+
+impl<const D: usize> State for Motion<D> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.velocity.save(out)?;
+        self.fastest.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        load_as_many(&mut self.velocity, from)?;
+        self.fastest.load(from)
     }
 }

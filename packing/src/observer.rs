@@ -1,5 +1,6 @@
 //! Watching a packing while it runs, and stopping it.
 
+use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 /// What a packing is busy with.
@@ -69,6 +70,26 @@ pub struct Sample {
 pub trait Observer {
     /// Called at the start of every phase, and every few evaluations. `Break` ends the packing with what there is.
     fn progress(&mut self, progress: &Progress) -> ControlFlow<()>;
+
+    /// Who keeps states to go on from, should this run end too early.
+    fn keeper(&mut self) -> Option<&mut dyn Keeper> {
+        None
+    }
+}
+
+/// Keeps states of a packing. A state is all that its loops have come to, as bytes: same method, same problem and a
+/// state give the bits that they would have given without a stop. What was placed before the loops is placed again.
+pub trait Keeper {
+    /// Whether a state is wanted now. Asked once before every step, and once more after [`Observer::progress`] has
+    /// stopped the packing.
+    fn is_due(&mut self) -> bool;
+
+    /// A state, which `write` writes: some hundred bytes per particle, in small pieces. The packing waits meanwhile.
+    /// What comes of it is the keeper's affair.
+    fn keep(&mut self, write: &dyn Fn(&mut dyn Write) -> io::Result<()>);
+
+    /// The state to go on from; asked once, when a packing begins.
+    fn earlier(&mut self) -> Option<Vec<u8>>;
 }
 
 /// Watches nothing.

@@ -1,11 +1,14 @@
 //! Particles that live on surfaces: capturing them and keeping them there.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
 
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
+use crate::state::{Damaged, State, load_as_many};
 
 /// The boundary particles and the outward normals where they sit.
 #[derive(Debug, Clone, Default)]
@@ -37,7 +40,8 @@ impl<const D: usize> OnSurface<D> {
         reach: f64,
     ) {
         self.project_by(particles, |p, body| {
-            surfaces[usize::from(body)].surface.closest_within(p, reach)
+            let held = surfaces.get(usize::from(body))?;
+            held.surface.closest_within(p, reach)
         });
     }
 
@@ -64,6 +68,21 @@ impl<const D: usize> OnSurface<D> {
     #[inline]
     pub fn tangential(&self, i: usize, v: [f64; D]) -> [f64; D] {
         point::reject(v, self.normal_of[i])
+    }
+}
+
+impl<const D: usize> State for OnSurface<D> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.normal_of.save(out)?;
+        self.index.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        load_as_many(&mut self.normal_of, from)?;
+        self.index.load(from)?;
+        (self.index.iter().all(|&i| i < self.normal_of.len()))
+            .then_some(())
+            .ok_or(Damaged)
     }
 }
 

@@ -121,8 +121,16 @@ impl Ppa {
         let mut watch = Watch::new(particles.len());
         let nearest = |p: [f64; D], _| self.wall(problem, p);
         let mut stop_reason = StopReason::IterationLimit;
-        for iteration in 1..=self.max_iterations {
-            if course.interrupted {
+        let mut first = 1;
+        course.go_on(&mut [
+            &mut first,
+            &mut particles,
+            &mut motion,
+            &mut watch,
+            &mut forces,
+        ])?;
+        for iteration in first..=self.max_iterations {
+            if course.is_to_stop(&[&iteration, &particles, &motion, &watch, &forces]) {
                 break;
             }
             forces.evaluate(&particles);

@@ -8,6 +8,7 @@ use sphpack_neighbors::Domain;
 
 use crate::lattice::{Filling, Lattice};
 use crate::slabs;
+use crate::state::Damaged;
 
 /// How deep inside the true surface the boundary particles sit, unless a body says otherwise: ∆s/2 (001 eq. 11).
 pub const DEFAULT_INSET_OVER_SPACING: f64 = 0.5;
@@ -71,6 +72,9 @@ pub struct Problem<const D: usize> {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PackingError {
+    /// What an observer's [`Keeper`](crate::Keeper) had to go on from is no state of this packing.
+    #[error("the state to go on from cannot be used: {0}; begin anew without it")]
+    Earlier(#[from] Damaged),
     /// A number that must be positive and finite is not.
     #[error("{name} is {value}; it must be a positive, finite number")]
     NotPositive {

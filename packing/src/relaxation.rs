@@ -111,8 +111,16 @@ impl Relaxation {
         course.enter(Phase::Settling);
         let mut whole = Forces::of(problem, Repulsion::none());
         let mut stop_reason = StopReason::IterationLimit;
-        for iteration in 1..=self.max_iterations {
-            if course.interrupted {
+        let (mut iteration, mut is_settled) = (1, false);
+        course.go_on(&mut [
+            &mut iteration,
+            &mut is_settled,
+            &mut solids,
+            &mut fluid,
+            &mut whole,
+        ])?;
+        while iteration <= self.max_iterations && !is_settled {
+            if course.is_to_stop(&[&iteration, &is_settled, &solids, &fluid, &whole]) {
                 break;
             }
             let mut residual: f64 = 0.0;
@@ -123,7 +131,7 @@ impl Relaxation {
                 see(&mut fluid, &solids);
             }
             residual = residual.max(fluid.step());
-            let is_settled = residual < self.residual_tolerance;
+            is_settled = residual < self.residual_tolerance;
             course.progress.evaluation = iteration;
             course.progress.criterion = residual;
             if iteration % LOOK_EVERY == 0 || is_settled {
@@ -133,10 +141,13 @@ impl Relaxation {
                 course.tell();
                 course.note(&whole, &particles);
             }
-            if is_settled {
-                stop_reason = StopReason::Converged;
-                break;
-            }
+            iteration += 1;
+        }
+        if is_settled {
+            stop_reason = StopReason::Converged;
+        }
+        if interface == Interface::Particles {
+            course.set_aside(0, &[&iteration, &is_settled, &solids, &fluid, &whole]);
         }
         for one in solids.iter().chain([&fluid]) {
             course.count(&one.forces);

@@ -1,5 +1,7 @@
 //! The short repulsion that keeps particles apart.
 
+use crate::state::values;
+
 /// α: the repulsion ends at α∆s (001 §3.1.2).
 pub const REACH_OVER_SPACING: f64 = 0.95;
 
@@ -16,6 +18,13 @@ pub struct Repulsion {
     reach: f64,
     core: f64,
 }
+
+values!(Repulsion {
+    strength: f64,
+    c: f64,
+    reach: f64,
+    core: f64
+});
 
 impl Repulsion {
     /// The repulsion at spacing ∆s with k_r = `strength` · ∆s · p_b, for p_b = 1 (001 eq. 24).

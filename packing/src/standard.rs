@@ -91,8 +91,10 @@ impl Standard {
         on_surface.refresh(&particles);
         let mut stop_reason = StopReason::IterationLimit;
         course.enter(Phase::Settling);
-        for iteration in 1..=self.max_iterations {
-            if course.interrupted {
+        let mut first = 1;
+        course.go_on(&mut [&mut first, &mut particles, &mut motion, &mut forces])?;
+        for iteration in first..=self.max_iterations {
+            if course.is_to_stop(&[&iteration, &particles, &motion, &forces]) {
                 break;
             }
             // UpdateNeighbors, ComputeAccelerations (eq. 26), IntegrateParticles (eqs. 17, 19)

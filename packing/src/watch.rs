@@ -1,10 +1,13 @@
 //! Free particles that come near a surface, found without asking for every distance at every step.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
 
 use crate::particles::{Kind, Particles};
+use crate::state::{Damaged, State, load_as_many};
 
 /// Where every particle was seen last, and how far it may go from there before it can be near.
 #[derive(Debug)]
@@ -42,5 +45,15 @@ impl<const D: usize> Watch<D> {
                 (*room < 0.0).then_some((i, hit))
             })
             .collect()
+    }
+}
+
+impl<const D: usize> State for Watch<D> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.seen.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        load_as_many(&mut self.seen, from)
     }
 }

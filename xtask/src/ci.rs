@@ -3,10 +3,14 @@
 use std::process::Command;
 use std::time::Instant;
 
-use crate::{balanced, reproduce, root, scene_fuzz, tidy};
+use crate::scene_fuzz::{self, kills};
+use crate::{balanced, reproduce, root, tidy};
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
 const RANDOM_SCENES: usize = 50;
+
+/// Runs of random scenes that are killed; `cargo xtask kills` does 200.
+const KILLS: usize = 20;
 
 /// Runs every check; the first that fails ends it.
 pub(crate) fn run() -> Result<(), String> {
@@ -35,7 +39,8 @@ pub(crate) fn run() -> Result<(), String> {
     };
     reproduce::run(&quick)?;
     balanced::run(&quick)?;
-    scene_fuzz::run(&scene_fuzz::Settings::new(RANDOM_SCENES))
+    scene_fuzz::run(&scene_fuzz::Settings::new(RANDOM_SCENES))?;
+    kills::run(&kills::Settings::new(KILLS))
 }
 
 fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {

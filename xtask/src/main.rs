@@ -1,5 +1,5 @@
-//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | reproduce-paper | balanced | compare | corpora |
-//! lattices | speed | bodies | round-trip`.
+//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | kills | reproduce-paper | balanced | compare |
+//! corpora | lattices | speed | bodies | round-trip`.
 
 mod accelerations;
 mod agitators;
@@ -45,6 +45,8 @@ cargo xtask TASK
                               random scenes, packed by the command and judged by brute force;
                               --number runs and shows one of them alone,
                               --write also writes docs/reliability.md
+  kills [--runs N] [--seed N] [--program FILE]
+                              runs of random scenes, killed N times (200) and resumed: they must come to the same bytes
   reproduce-paper [--quick] [--only SCENE] [--data DIR] [--write]
                               the figures of paper 001, published beside ours;
                               --quick leaves out the long runs,
@@ -85,6 +87,10 @@ fn main() -> ExitCode {
             scene_fuzz::Settings::parse(rest).and_then(|s| scene_fuzz::run(&s))
         }
         Some("fuzz") => fuzz::Settings::parse(rest).and_then(|s| fuzz::run(&s)),
+        Some("kills") => {
+            let settings = scene_fuzz::kills::Settings::parse(rest);
+            settings.and_then(|s| scene_fuzz::kills::run(&s))
+        }
         Some("reproduce-paper") => {
             reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))
         }

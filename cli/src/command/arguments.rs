@@ -57,6 +57,8 @@ A body's format is told from its content, whatever its name. It is: triangles (S
 
 Progress goes to standard error, the closing summary to standard output. Ctrl-C stops packing and writes what there is; a second Ctrl-C ends at once.
 
+A run that is killed leaves a checkpoint (see --checkpoint), one that is stopped does too: the same command with --resume goes on from it, and ends with the same particles as if nothing had happened; with --force where the stopped run has written its files. A checkpoint goes when its run is done.
+
 Files are written under hidden names, read again and compared, and then get their names all together, or none does. What is complete but cannot get its name is kept beside it as NAME.rescued.ENDING. With --force a file keeps its mode and, as far as allowed, its owner; a symbolic link is replaced itself, what it points to stays.")]
 pub(super) struct PackArguments {
     /// The scene (.toml), or a body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
@@ -88,6 +90,15 @@ pub(super) struct PackArguments {
     /// The seed of random numbers, instead of the scene's
     #[arg(long, value_name = "NUMBER")]
     pub(super) seed: Option<u64>,
+    /// Keep the state here every 30 s, to go on from if the run ends too early [default: the first output with the ending .checkpoint, once a run takes over a minute or is stopped]
+    #[arg(long, value_name = "FILE")]
+    pub(super) checkpoint: Option<PathBuf>,
+    /// Go on from the checkpoint of a run that was killed or stopped, to the same particles
+    #[arg(long)]
+    pub(super) resume: bool,
+    /// Seconds from one checkpoint to the next, for tests
+    #[arg(long, value_name = "SECONDS", hide = true, value_parser = seconds)]
+    pub(super) checkpoint_every: Option<f64>,
     /// Threads [default: one for each core]
     #[arg(long, value_name = "NUMBER")]
     pub(super) threads: Option<usize>,
@@ -97,6 +108,13 @@ pub(super) struct PackArguments {
     /// Print nothing but errors
     #[arg(short, long)]
     pub(super) quiet: bool,
+}
+
+/// A time that a clock can wait for.
+fn seconds(text: &str) -> Result<f64, String> {
+    (text.parse().ok())
+        .filter(|seconds| (0.0..1e9).contains(seconds))
+        .ok_or_else(|| "it must be a number of seconds, 0 or more".into())
 }
 
 #[derive(Debug, Args)]

@@ -7,6 +7,7 @@ mod arguments;
 mod check;
 mod init;
 mod interrupt;
+mod keeping;
 mod list;
 mod outputs;
 mod pack;

@@ -8,6 +8,7 @@ use std::time::Instant;
 use sphpack_packing::{Kind, StopReason};
 
 use super::arguments::PackArguments;
+use super::keeping::Keeping;
 use super::plain_text::visible;
 use super::progress::{Watcher, duration};
 use super::{interrupt, outputs, say, summary, threads};
@@ -43,10 +44,11 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     if arguments.dry_run {
         return dry_run(&scene, arguments.quiet);
     }
+    let keeping = Keeping::new(arguments, &scene, &files.particles[0].0)?;
     interrupt::watch(arguments.quiet)?;
-    let mut watcher = Watcher::new(arguments.quiet);
+    let mut watcher = Watcher::new(arguments.quiet, keeping);
     let outcome = pack(&scene, &Options::default(), &mut watcher);
-    watcher.end();
+    let keeping = watcher.end();
     let mut outcome = outcome?;
     if !arguments.quiet {
         for body in &outcome.report.bodies {
@@ -60,6 +62,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     if !arguments.quiet {
         say(&summary::of(&outcome, &written))?;
     }
+    keeping.end(stop_reason(&outcome) == StopReason::Interrupted);
     let status = match stop_reason(&outcome) {
         StopReason::Converged if outcome.report.audit.passed => DONE,
         StopReason::Interrupted => INTERRUPTED,
@@ -231,6 +234,13 @@ impl Files {
                 return Err(Error::input(path, "the report is JSON; name it .json"));
             }
         }
+        if let Some(path) = &arguments.checkpoint {
+            outputs::check_name(path)?;
+            if path.extension().is_none_or(|ending| ending != "checkpoint") {
+                let message = "a checkpoint is no particle file; name it .checkpoint";
+                return Err(Error::input(path, message));
+            }
+        }
         let files = Self {
             particles,
             picture,
@@ -246,6 +256,9 @@ impl Files {
                     .map(|file| scene.resolve(file)),
             );
             outputs::check(&files.paths(), &inputs, arguments.force)?;
+            if let Some(path) = &arguments.checkpoint {
+                outputs::check(&[path], &inputs, true)?;
+            }
         }
         Ok(files)
     }

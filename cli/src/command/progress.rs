@@ -4,9 +4,10 @@ use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use sphpack_packing::{Observer, Phase, Progress};
+use sphpack_packing::{Keeper, Observer, Phase, Progress};
 
 use super::interrupt;
+use super::keeping::Keeping;
 use crate::picture::grouped;
 
 /// The pace of the last so many evaluations, or twice as many, is taken for that of those to come.
@@ -22,18 +23,19 @@ enum Style {
     Plain,
 }
 
-/// Watches a packing for a person, and for Ctrl-C.
+/// Watches a packing for a person, and for Ctrl-C; keeps its checkpoints.
 #[derive(Debug)]
 pub(super) struct Watcher {
     style: Style,
     shown: Option<(Phase, Instant)>,
     /// Phase, evaluation and criterion some time ago and more lately, for a guess of the end.
     anchors: [Option<(Phase, usize, f64)>; 2],
+    keeping: Keeping,
 }
 
 impl Watcher {
     /// Nothing is shown where `is_quiet`.
-    pub(super) fn new(is_quiet: bool) -> Self {
+    pub(super) fn new(is_quiet: bool, keeping: Keeping) -> Self {
         let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
         Self {
             style: match (is_quiet, std::io::stderr().is_terminal() && !is_dumb) {
@@ -43,14 +45,16 @@ impl Watcher {
             },
             shown: None,
             anchors: [None; 2],
+            keeping,
         }
     }
 
-    /// Clears the redrawn line.
-    pub(super) fn end(&mut self) {
+    /// Clears the redrawn line, and gives back who keeps the checkpoints.
+    pub(super) fn end(self) -> Keeping {
         if self.style == Style::Redrawn && self.shown.is_some() {
             let _ = write!(std::io::stderr(), "\r\x1b[K");
         }
+        self.keeping
     }
 
     fn show(&mut self, progress: &Progress) {
@@ -127,11 +131,17 @@ impl Observer for Watcher {
             }
         }
         self.show(progress);
-        if interrupt::is_asked() {
+        let is_stopped = interrupt::is_asked();
+        self.keeping.note(progress, is_stopped);
+        if is_stopped {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
         }
+    }
+
+    fn keeper(&mut self) -> Option<&mut dyn Keeper> {
+        Some(&mut self.keeping)
     }
 }
 

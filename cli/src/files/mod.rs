@@ -47,7 +47,7 @@ pub use vtk_read::read_vtk;
 pub use vtp::write_vtp;
 pub use vtu::write_vtu;
 pub use vtu_read::read_vtu;
-pub(crate) use whole::WholeFiles;
+pub(crate) use whole::{WholeFiles, replace};
 
 /// The largest input that is read into memory, bytes.
 const MAX_INPUT: u64 = 8 << 30;

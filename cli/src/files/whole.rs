@@ -65,21 +65,7 @@ impl WholeFiles {
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
         check: impl FnOnce(&Path) -> Result<(), String>,
     ) -> Result<(), Error> {
-        let attempt = || {
-            let mut file = {
-                let mut registered = unfinished();
-                let file = temporary(folder_of(path))?;
-                registered.push(file.path().to_owned());
-                file
-            };
-            let mut buffered = BufWriter::with_capacity(1 << 18, file.as_file_mut());
-            content(&mut buffered)?;
-            buffered.flush()?;
-            drop(buffered);
-            durable(file.as_file().sync_all())?;
-            Ok::<_, io::Error>(file)
-        };
-        match attempt() {
+        match written(path, content) {
             Ok(file) => {
                 let found = check(file.path());
                 let path = path.to_owned();
@@ -163,6 +149,41 @@ impl WholeFiles {
         }
         Error::write(path, reason).with_kept(&kept, &lost)
     }
+}
+
+/// Writes a single file, down to the disk, in place of whatever has its name: at any instant the one or the other is
+/// there, whole.
+pub(crate) fn replace(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let file = written(path, content)?;
+    let mut registered = unfinished();
+    let temporary = file.path().to_owned();
+    file.persist(path).map_err(|e| e.error)?;
+    registered.retain(|p| *p != temporary);
+    drop(registered);
+    sync_folder(folder_of(path));
+    Ok(())
+}
+
+/// A file under a temporary name beside `path`, its content on the disk.
+fn written(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<NamedTempFile> {
+    let mut file = {
+        let mut registered = unfinished();
+        let file = temporary(folder_of(path))?;
+        registered.push(file.path().to_owned());
+        file
+    };
+    let mut buffered = BufWriter::with_capacity(1 << 18, file.as_file_mut());
+    content(&mut buffered)?;
+    buffered.flush()?;
+    drop(buffered);
+    durable(file.as_file().sync_all())?;
+    Ok(file)
 }
 
 /// Gives a complete file its name; what had that name before is beside it then.

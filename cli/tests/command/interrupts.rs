@@ -58,7 +58,8 @@ fn the_first_writes_what_there_is() {
     let mut child = at_work(&desk);
     interrupt(&child);
     assert_eq!(child.wait().expect("an end").code(), Some(130));
-    assert_eq!(desk.files(), ["out.csv", "out.json", "scene.toml"]);
+    let files = ["out.checkpoint", "out.csv", "out.json", "scene.toml"];
+    assert_eq!(desk.files(), files);
     let report: Value = serde_json::from_slice(&desk.read("out.json")).expect("JSON");
     assert_eq!(report["converged"], false);
     assert_eq!(report["stop_reason"], "interrupted");

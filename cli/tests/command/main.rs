@@ -5,6 +5,7 @@ mod bad_outputs;
 mod bad_scenes;
 mod body_formats;
 mod checking;
+mod checkpoints;
 mod dirty_formats;
 mod dirty_meshes;
 mod file_sets;

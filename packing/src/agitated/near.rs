@@ -1,10 +1,13 @@
 //! The repulsion of paper 000, eqs. 4 and 5.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_neighbors::{Domain, KdTree, point};
 
 use crate::forces::largest;
 use crate::particles::{Kind, Particles};
+use crate::state::{Damaged, State, all_finite};
 
 /// c of eq. 4 in ∆s: 1.5 α with α = 1, and 1.2 between boundary particles.
 pub(super) const REACH: [f64; 2] = [1.5, 1.8];
@@ -38,19 +41,28 @@ impl<const D: usize> Near<D> {
             }
         }
         self.seen.clone_from(positions);
-        let places: Vec<[f64; D]> = positions.iter().map(|&p| domain.wrap(p)).collect();
+        self.find(particles, domain, reach + skin);
+    }
+
+    /// The neighbours within `reach` (scene units) where the particles were seen.
+    pub(super) fn find(&mut self, particles: &Particles<D>, domain: &Domain<D>, reach: f64) {
+        if self.seen.len() != particles.len() {
+            return;
+        }
+        let places: Vec<[f64; D]> = self.seen.iter().map(|&p| domain.wrap(p)).collect();
         let Ok(tree) = KdTree::new(&places) else {
+            self.list = vec![Vec::new(); places.len()];
             return;
         };
-        self.list = (0..positions.len())
+        self.list = (0..places.len())
             .into_par_iter()
             .with_min_len(256)
             .map(|i| {
                 if particles.kind[i] == Kind::Frozen {
                     return Vec::new();
                 }
-                (domain.images(places[i], reach + skin))
-                    .flat_map(|image| tree.within(image, reach + skin))
+                (domain.images(places[i], reach))
+                    .flat_map(|image| tree.within(image, reach))
                     .filter(|found| found.index != i)
                     .map(|found| found.index as u32)
                     .collect()
@@ -88,5 +100,17 @@ impl<const D: usize> Near<D> {
                 sum
             })
             .collect_into_vec(out);
+    }
+}
+
+/// To be followed by [`Near::find`].
+impl<const D: usize> State for Near<D> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.seen.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        self.seen.load(from)?;
+        all_finite(&self.seen).then_some(()).ok_or(Damaged)
     }
 }

@@ -5,6 +5,7 @@ mod clashes;
 mod gaps;
 pub(crate) mod parts;
 mod pockets;
+mod round;
 pub(crate) mod shares;
 pub(crate) mod sites;
 #[cfg(test)]
@@ -32,6 +33,7 @@ use band::Part;
 use clashes::Clash;
 use parts::Parts;
 use pockets::Pockets;
+use round::Round;
 use shares::{Held, Share};
 
 /// The balanced method.
@@ -107,7 +109,6 @@ impl Balanced {
 
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
-        let mut width = self.band.first_width(problem, settling.finish);
         let (seeds, omitted) = place(&parts, &surfaces, &samples, &clashes);
         let Seeds {
             mut particles,
@@ -119,7 +120,22 @@ impl Balanced {
         let perfect_gamma = problem.perfect_gamma();
         let mut forces = Forces::of(problem, settling.early_repulsion(problem.spacing));
         let mut stop_reason = StopReason::Converged;
-        for round in 0..=MOST_WIDENINGS {
+        let mut begin = Round {
+            number: 0,
+            width: self.band.first_width(problem, settling.finish),
+            particles: &mut particles,
+            forces: &mut forces,
+        };
+        course.go_on(&mut [&mut begin])?;
+        let (mut round, mut width) = (begin.number, begin.width);
+        while round <= MOST_WIDENINGS {
+            let begin = Round {
+                number: round,
+                width,
+                particles: &mut particles,
+                forces: &mut forces,
+            };
+            course.set_aside(0, &[&begin]);
             let mut part = Part::of(problem, &particles, width);
             forces.targets_changed();
             let mut landscape = Landscape::new(
@@ -130,7 +146,7 @@ impl Balanced {
                 problem.support(),
             );
             landscape.keep_sides(&problem.bodies);
-            stop_reason = settling.run(&mut landscape, &mut course, perfect_gamma, round > 0);
+            stop_reason = settling.run(&mut landscape, &mut course, perfect_gamma, round > 0)?;
             forces = landscape.into_forces();
             part.write_back(&mut particles);
             let is_settled = stop_reason == StopReason::Converged;
@@ -141,6 +157,7 @@ impl Balanced {
                 break;
             }
             width *= WIDER;
+            round += 1;
         }
         let mut packed = course
             .end(

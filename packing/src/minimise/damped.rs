@@ -1,6 +1,9 @@
 //! The papers' damped dynamics.
 
+use std::io::{self, Write};
+
 use super::{Landscape, Minimiser, Step, vectors};
+use crate::state::{Damaged, State};
 use sphpack_neighbors::point;
 
 /// Semi-implicit Euler with damping −ζu, ζ = C_ζ/∆s, and the time step of 001 eq. 25 (p_b = 1).
@@ -31,4 +34,14 @@ impl<const D: usize> Minimiser<D> for Damped<D> {
     }
 
     fn reset(&mut self) {}
+
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.velocity.save(out)?;
+        self.fastest.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8], _: usize) -> Result<(), Damaged> {
+        self.velocity.load(from)?;
+        self.fastest.load(from)
+    }
 }

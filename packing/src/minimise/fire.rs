@@ -1,6 +1,9 @@
 //! FIRE, the fast inertial relaxation engine.
 
+use std::io::{self, Write};
+
 use super::{Landscape, Minimiser, Step, vectors};
+use crate::state::{Damaged, State, Value};
 use sphpack_neighbors::point;
 
 /// Dynamics without damping whose velocity is steered along the force, sped up while it runs downhill and stopped
@@ -84,5 +87,17 @@ impl<const D: usize> Minimiser<D> for Fire<D> {
 
     fn reset(&mut self) {
         self.velocity.clear();
+    }
+
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.velocity.save(out)?;
+        (self.dt_over_h, self.steer).save(out)?;
+        self.downhill.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8], _: usize) -> Result<(), Damaged> {
+        self.velocity.load(from)?;
+        (self.dt_over_h, self.steer) = Value::take(from)?;
+        self.downhill.load(from)
     }
 }

@@ -1,8 +1,11 @@
 //! What L-BFGS remembers, and the direction that it makes of it.
 
 use std::collections::VecDeque;
+use std::io::{self, Write};
 
 use rayon::prelude::*;
+
+use crate::state::{Damaged, State, Value, load_as_many, put_list};
 
 /// The most pairs that can be remembered.
 pub(super) const MOST_PAIRS: usize = 16;
@@ -66,6 +69,41 @@ impl<const D: usize> History<D> {
 
     pub(super) fn clear(&mut self) {
         self.order.clear();
+    }
+
+    /// Appends the pairs that are remembered, the oldest first, and all products.
+    pub(super) fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.order.len().save(out)?;
+        for &slot in &self.order {
+            let Pair { step, change } = &self.pairs[slot];
+            slot.save(out)?;
+            step.save(out)?;
+            change.save(out)?;
+        }
+        put_list(&self.products, out)?;
+        self.with_force.save(out)
+    }
+
+    /// What was saved, of vectors of `count` entries.
+    pub(super) fn load(&mut self, from: &mut &[u8], count: usize) -> Result<(), Damaged> {
+        self.order.clear();
+        for _ in 0..usize::take(from)? {
+            let slot = usize::take(from)?;
+            let (step, change) = <(Vec<_>, Vec<_>)>::take(from)?;
+            let is_sound = slot < MOST_PAIRS
+                && !self.order.contains(&slot)
+                && [step.len(), change.len()] == [count; 2];
+            if !is_sound {
+                return Err(Damaged);
+            }
+            if slot >= self.pairs.len() {
+                self.pairs.resize_with(slot + 1, Pair::default);
+            }
+            self.pairs[slot] = Pair { step, change };
+            self.order.push_back(slot);
+        }
+        load_as_many(&mut self.products, from)?;
+        self.with_force.load(from)
     }
 
     /// Remembers a step, unless it teaches nothing; of more than `memory` pairs the oldest is forgotten.

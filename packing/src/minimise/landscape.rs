@@ -1,5 +1,6 @@
 //! The energy over the places of the mobile particles.
 
+use std::io::{self, Write};
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -15,6 +16,7 @@ use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::problem::Body;
 use crate::repulsion::Repulsion;
+use crate::state::{Damaged, State, Value};
 
 /// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R, and that of a [`Levelling`], over the places of the mobile
 /// particles, and its forces −∇E; boundary particles stay on their surfaces, fixed and frozen ones where they are.
@@ -247,11 +249,18 @@ impl<'a, const D: usize> Landscape<'a, D> {
 
     fn evaluate(&mut self) {
         self.forces.evaluate(self.particles);
+        if let Some(added) = &mut self.added {
+            added.evaluate(self.particles);
+        }
+        self.add_up();
+    }
+
+    /// Energy and forces of what the evaluators found.
+    fn add_up(&mut self) {
         let unit = self.spacing.powi(D as i32);
         let volume = &self.particles.volume;
         self.energy = self.forces.weighted_energy(|i| volume[i] / unit);
-        if let Some(added) = &mut self.added {
-            added.evaluate(self.particles);
+        if let Some(added) = &self.added {
             self.energy += added.weighted_energy(|i| volume[i] / unit);
         }
         if let Some(calm) = &mut self.calm {
@@ -294,5 +303,49 @@ impl<'a, const D: usize> Landscape<'a, D> {
                 self.force[place][axis] = 0.0;
             }
         }
+    }
+}
+
+/// Of the same problem, with the same evaluators and penalties; afterwards it is evaluated where it stands.
+impl<const D: usize> State for Landscape<'_, D> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.particles.save(out)?;
+        self.forces.save(out)?;
+        if let Some(added) = &self.added {
+            added.save(out)?;
+        }
+        self.is_surface_held.save(out)?;
+        self.on_surface.save(out)?;
+        self.sides.save(out)?;
+        self.walls.save(out)?;
+        (self.projection_seconds, self.calm_seconds).save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        self.particles.load(from)?;
+        self.forces.load(from)?;
+        if let Some(added) = &mut self.added {
+            added.load(from)?;
+        }
+        self.is_surface_held.load(from)?;
+        self.on_surface.load(from)?;
+        let count = self.particles.len();
+        self.sides.load(from, count, self.surfaces.len())?;
+        self.walls.load(from)?;
+        let seconds = <(f64, f64)>::take(from)?;
+        let kind = &self.particles.kind;
+        self.mobile.clear();
+        self.mobile.extend((0..count as u32).filter(|&i| {
+            let kind = kind[i as usize];
+            kind == Kind::Free || (kind == Kind::Boundary && !self.is_surface_held)
+        }));
+        self.force.resize(self.mobile.len(), [0.0; D]);
+        self.forces.evaluate_again(self.particles);
+        if let Some(added) = &mut self.added {
+            added.evaluate_again(self.particles);
+        }
+        self.add_up();
+        (self.projection_seconds, self.calm_seconds) = seconds;
+        Ok(())
     }
 }

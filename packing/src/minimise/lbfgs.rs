@@ -1,7 +1,10 @@
 //! L-BFGS with a backtracking line search.
 
+use std::io::{self, Write};
+
 use super::history::{History, Taken};
 use super::{Landscape, Minimiser, Step, vectors};
+use crate::Damaged;
 
 /// Limited-memory BFGS (Nocedal & Wright, Numerical Optimization, algorithm 7.4). Steps are capped, their directions
 /// tangential to the surfaces, and none is accepted that raises the energy beyond its rounding.
@@ -111,5 +114,13 @@ impl<const D: usize> Minimiser<D> for Lbfgs<D> {
 
     fn reset(&mut self) {
         self.history.clear();
+    }
+
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.history.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8], count: usize) -> Result<(), Damaged> {
+        self.history.load(from, count)
     }
 }

@@ -45,6 +45,10 @@ pub use landscape::Landscape;
 pub use lbfgs::Lbfgs;
 pub use settling::{Finish, Settling};
 
+use std::io::{self, Write};
+
+use crate::Damaged;
+
 /// What a step came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Step {
@@ -62,6 +66,15 @@ pub trait Minimiser<const D: usize>: std::fmt::Debug {
 
     /// Forgets what earlier steps taught: the energy has become another one.
     fn reset(&mut self);
+
+    /// Appends all that earlier steps taught.
+    fn save(&self, out: &mut dyn Write) -> io::Result<()>;
+
+    /// Takes what [`Minimiser::save`] appended off the front of `from`, for a landscape of `count` mobile particles.
+    ///
+    /// # Errors
+    /// [`Damaged`] where it is not that; then the minimiser is of no use any more.
+    fn load(&mut self, from: &mut &[u8], count: usize) -> Result<(), Damaged>;
 }
 
 /// The name of a minimiser.

@@ -1,10 +1,14 @@
 //! From any start to rest: the schedule that methods share.
 
-use super::{Landscape, MinimiserKind, Step};
-use crate::course::Course;
+use std::io::{self, Write};
+
+use super::{Landscape, Minimiser, MinimiserKind, Step};
+use crate::course::{Begin, Course};
 use crate::forces::Levelling;
 use crate::packed::StopReason;
+use crate::problem::PackingError;
 use crate::repulsion::{REACH_OVER_SPACING, Repulsion, STRENGTH};
+use crate::state::{Damaged, State};
 
 /// How particles are left.
 ///
@@ -132,31 +136,58 @@ impl Settling {
     }
 
     /// Settles the landscape's particles; its repulsion should be [`Settling::early_repulsion`]. With `is_again` they
-    /// have been through the strong repulsion before. `perfect_gamma` is Γ of the undisturbed lattice.
+    /// have been through the strong repulsion before. `perfect_gamma` is Γ of the undisturbed lattice. Fails only where
+    /// it is to go on from a damaged state.
     pub(crate) fn run<const D: usize>(
         &self,
         landscape: &mut Landscape<'_, D>,
         course: &mut Course<'_>,
         perfect_gamma: f64,
         is_again: bool,
-    ) -> StopReason {
-        let mut minimiser = self.minimiser.build::<D>();
-        let begin = landscape.evaluations();
+    ) -> Result<StopReason, PackingError> {
+        let minimiser = self.minimiser.build::<D>();
+        let mut begin = landscape.evaluations();
         // Iterations with other evaluators.
-        let earlier = course.progress.evaluation.saturating_sub(begin);
+        let mut earlier = course.progress.evaluation.saturating_sub(begin);
         let tolerance = self.tolerance();
         let mut early = !is_again;
-        if is_again {
-            self.begin_end(landscape, perfect_gamma);
-        }
         let mut noted = 0;
         let (mut lowest, mut energy_then, mut lowest_at) = (f64::INFINITY, f64::INFINITY, begin);
+        let mut descent = Descent {
+            landscape,
+            minimiser,
+        };
+        let found = course.go_on(&mut [
+            &mut descent,
+            &mut begin,
+            &mut earlier,
+            &mut early,
+            &mut noted,
+            &mut lowest,
+            &mut energy_then,
+            &mut lowest_at,
+        ])?;
+        if found == Begin::Anew && is_again {
+            self.begin_end(descent.landscape, perfect_gamma);
+        }
         let reason = loop {
-            let used = landscape.evaluations() - begin;
-            if course.interrupted {
+            if course.is_to_stop(&[
+                &descent,
+                &begin,
+                &earlier,
+                &early,
+                &noted,
+                &lowest,
+                &energy_then,
+                &lowest_at,
+            ]) {
                 break StopReason::Interrupted;
             }
-            if used >= self.max_evaluations {
+            let Descent {
+                landscape,
+                minimiser,
+            } = &mut descent;
+            if landscape.evaluations().saturating_sub(begin) >= self.max_evaluations {
                 break StopReason::IterationLimit;
             }
             let step = minimiser.step(landscape);
@@ -197,8 +228,27 @@ impl Settling {
                 (lowest_at, energy_then) = (evaluations, landscape.energy());
             }
         };
+        let landscape = descent.landscape;
         course.note(landscape.forces(), landscape.particles());
         course.seconds.projection += landscape.projection_seconds();
-        reason
+        Ok(reason)
+    }
+}
+
+/// A minimiser on its landscape.
+struct Descent<'s, 'l, const D: usize> {
+    landscape: &'s mut Landscape<'l, D>,
+    minimiser: Box<dyn Minimiser<D>>,
+}
+
+impl<const D: usize> State for Descent<'_, '_, D> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.landscape.save(out)?;
+        self.minimiser.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        self.landscape.load(from)?;
+        self.minimiser.load(from, self.landscape.len())
     }
 }

@@ -1,11 +1,14 @@
 //! Free particles stay on their side of every surface.
 
+use std::io::{self, Write};
+
 use rayon::prelude::*;
 use sphpack_neighbors::{Domain, KdTree, point};
 
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::problem::Body;
+use crate::state::{Damaged, State, values};
 
 /// No free particle comes nearer to a particle surface than this, in ∆s, if it was not nearer before. Those of the first layer
 /// are 0.8 ∆s away.
@@ -50,6 +53,18 @@ struct Watched<const D: usize> {
     /// The normal where it lies on the floor, away from the surface.
     held: Option<[f64; D]>,
 }
+
+values!(Watched[const D: usize] {
+    particle: u32,
+    surface: u16,
+    is_out: bool,
+    side: f64,
+    floor: f64,
+    slack: f64,
+    seen: [f64; D],
+    room: f64,
+    held: Option<[f64; D]>,
+});
 
 impl<const D: usize> Watched<D> {
     /// Looks at the particle anew, and puts it back where it came too near.
@@ -163,6 +178,27 @@ impl<const D: usize> Sides<D> {
                 particles.position[watched.particle as usize] = p;
             }
         }
+    }
+
+    /// Appends who is watched, and what was seen.
+    pub(super) fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.watched.save(out)
+    }
+
+    /// What was saved, of so many particles and surfaces.
+    pub(super) fn load(
+        &mut self,
+        from: &mut &[u8],
+        particles: usize,
+        surfaces: usize,
+    ) -> Result<(), Damaged> {
+        self.watched.load(from)?;
+        let is_known = |watched: &Watched<D>| {
+            (watched.particle as usize) < particles && usize::from(watched.surface) < surfaces
+        };
+        (self.watched.iter().all(is_known))
+            .then_some(())
+            .ok_or(Damaged)
     }
 
     /// Particles that lie on their floor, and which way is away from the surface.

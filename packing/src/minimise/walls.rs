@@ -1,8 +1,11 @@
 //! Free particles stay in the box.
 
+use std::io::{self, Write};
+
 use sphpack_neighbors::Domain;
 
 use crate::particles::{Kind, Particles};
+use crate::state::{Damaged, State};
 
 /// Keeps free particles within the sides of the box that are not periodic. Frozen particles alone are no barrier: where a
 /// thin body holds too many particles, or two bodies leave a narrow place between them, some are pushed through.
@@ -51,5 +54,18 @@ impl<const D: usize> Walls<D> {
         self.held
             .iter()
             .map(|&(i, axis, inward)| (i as usize, axis, inward))
+    }
+}
+
+impl<const D: usize> State for Walls<D> {
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.held.save(out)
+    }
+
+    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
+        self.held.load(from)?;
+        (self.held.iter().all(|&(_, axis, _)| axis < D))
+            .then_some(())
+            .ok_or(Damaged)
     }
 }

@@ -5,6 +5,7 @@ mod case;
 mod generate;
 mod judge;
 mod kernel;
+pub(crate) mod kills;
 mod random;
 mod rows;
 mod shape;
