@@ -172,7 +172,7 @@ impl Agitated {
             &mut forces,
             &mut near,
         ])?;
-        if begin == Begin::Within {
+        if begin != Begin::Anew {
             near.find(&particles, &problem.domain, (REACH[1] + SKIN) * size);
             agitators.retain(|_| is_stirred);
         }

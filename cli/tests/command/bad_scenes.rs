@@ -116,7 +116,7 @@ fn outlines_are_checked() {
     refuse(
         circle,
         "{ naca = { digits = \"15\", chord = 1 } }",
-        &["cylinder", "four digits"],
+        &["cylinder", "four or five digits"],
     );
     refuse(
         circle,

@@ -29,6 +29,8 @@ fn figures(desk: &Desk) -> Value {
     let mut report: Value = serde_json::from_slice(&desk.read("out.json")).expect("JSON");
     let object = report.as_object_mut().expect("an object");
     object.remove("seconds");
+    let audit = object["audit"].as_object_mut().expect("an object");
+    audit.remove("seconds");
     object.remove("peak_memory_bytes");
     for sample in object["history"].as_array_mut().expect("a list") {
         sample.as_object_mut().expect("an object").remove("seconds");

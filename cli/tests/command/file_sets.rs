@@ -78,6 +78,8 @@ fn a_name_taken_meanwhile_undoes_the_set() {
     assert_eq!(
         desk.files(),
         [
+            // Of the run that was stopped.
+            "a.checkpoint",
             "a.csv",
             "a.rescued.csv",
             "b.rescued.vtu",

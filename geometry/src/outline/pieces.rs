@@ -92,7 +92,7 @@ mod tests {
             let mut areas = Vec::new();
             for (k, &depth) in depths.iter().enumerate() {
                 let rings: Vec<_> = (0..depth)
-                    .map(|n| ring([3.0 * k as f64, 0.1], 1.0 - 0.13 * n as f64, 5 + n as u32))
+                    .map(|n| ring([3.0 * k as f64, 0.1], 1.0 - 0.13 * n as f64, 20 + n as u32))
                     .collect();
                 for pair in rings.chunks(2) {
                     let area = |points: &[[f64; 2]]| signed_area(points).abs();
