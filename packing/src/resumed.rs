@@ -48,7 +48,7 @@ impl Keeper for Recorder {
         self.last.clear();
         write(&mut self.last).expect("memory takes everything");
         // The first few, and then ever rarer ones.
-        if self.asked <= 2 || (self.asked + 1).is_power_of_two() || self.asked % 97 == 0 {
+        if self.asked <= 2 || (self.asked + 1).is_power_of_two() || self.asked.is_multiple_of(97) {
             self.kept.push(self.last.clone());
         }
     }

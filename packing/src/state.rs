@@ -65,7 +65,7 @@ numbers!(u8 u16 u32 u64 f32 f64);
 const LARGEST_COUNT: u64 = 1 << 48;
 
 impl Value for usize {
-    const LEAST: usize = 8;
+    const LEAST: Self = 8;
 
     fn put(&self, out: &mut dyn Write) -> io::Result<()> {
         (*self as u64).put(out)

@@ -4,7 +4,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use crate::scene_fuzz::{self, kills};
-use crate::{balanced, reproduce, root, tidy};
+use crate::{balanced, bodies, reproduce, root, tidy};
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
 const RANDOM_SCENES: usize = 50;
@@ -39,6 +39,7 @@ pub(crate) fn run() -> Result<(), String> {
     };
     reproduce::run(&quick)?;
     balanced::run(&quick)?;
+    bodies::run(&bodies::Settings::quick())?;
     scene_fuzz::run(&scene_fuzz::Settings::new(RANDOM_SCENES))?;
     kills::run(&kills::Settings::new(KILLS))
 }

@@ -47,8 +47,8 @@ pub struct Mesh {
     bvh: Bvh<3>,
     normals: Normals,
     features: OnceLock<Features<3>>,
-    /// The connected parts, once they were asked for.
-    parts: OnceLock<Vec<Arc<Self>>>,
+    /// The connected parts, once they were asked for; boxed, so that a mesh is not large by what most have not.
+    parts: Box<OnceLock<Vec<Arc<Self>>>>,
     area: f64,
     volume: f64,
 }
@@ -121,7 +121,7 @@ impl Mesh {
             bvh,
             corners,
             features: OnceLock::new(),
-            parts: OnceLock::new(),
+            parts: Box::default(),
             vertices,
             triangles,
         })

@@ -127,8 +127,11 @@ mod tests {
     use super::*;
     use crate::surface::Surface;
 
-    /// The corners and triangles of a box, turned inside out for a cavity.
-    fn block(min: [f64; 3], size: f64, is_cavity: bool) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    /// Corners and triangles.
+    type Block = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
+    /// A box, turned inside out for a cavity.
+    fn block(min: [f64; 3], size: f64, is_cavity: bool) -> Block {
         let vertices = (0..8)
             .map(|k| std::array::from_fn(|a| min[a] + size * f64::from(k >> a & 1)))
             .collect();
@@ -147,7 +150,7 @@ mod tests {
         (vertices, triangles)
     }
 
-    fn mesh(blocks: Vec<(Vec<[f64; 3]>, Vec<[u32; 3]>)>) -> Mesh {
+    fn mesh(blocks: Vec<Block>) -> Mesh {
         let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
         for (own, sides) in blocks {
             let first = vertices.len() as u32;

@@ -313,3 +313,80 @@ fn corrected_masses_even_the_density_and_keep_the_sums() {
         assert!((new / old - 1.0).abs() <= spread * (1.0 + 1e-9));
     }
 }
+
+fn circle(center: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
+    (0..120)
+        .map(|k| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 120.0).sin_cos();
+            [center[0] + radius * cos, center[1] + radius * sin]
+        })
+        .collect()
+}
+
+fn shoelace(points: &[[f64; 2]]) -> f64 {
+    let twice = |k: usize| {
+        let ([x, y], [u, v]) = (points[k], points[(k + 1) % points.len()]);
+        x * v - u * y
+    };
+    0.5 * (0..points.len()).map(twice).sum::<f64>().abs()
+}
+
+/// A ring with an island, and a block beside it: each part and the pocket between ring and island has its own volume, whatever
+/// the spacing, by where the particles are.
+#[test]
+fn no_part_pays_for_another() {
+    let (outer, inner) = (circle([0.0; 2], 1.0), circle([0.0; 2], 0.75));
+    let island = circle([0.05, 0.0], 0.33);
+    let block = vec![[1.2, -0.2], [1.6, -0.2], [1.6, 0.25], [1.2, 0.25]];
+    let area = [&outer, &inner, &island, &block].map(|points| shoelace(points));
+    let exact = [area[0] - area[1], area[1] - area[2], area[2], area[3]];
+    let body = Outline::new(vec![outer, inner, island, block]).expect("an outline");
+    for step in 0..10 {
+        let spacing = 0.03 * 1.15_f64.powi(step);
+        let problem = Problem::new(Domain::new([-1.7, -1.7], [2.3, 1.7]), spacing)
+            .body("parts", body.clone());
+        let packed = pack(&problem);
+        let mut held = [0.0; 4];
+        for i in 0..packed.particles.len() {
+            let [x, y] = packed.particles.position[i];
+            let is_solid = packed.particles.body[i].is_some();
+            let from = |u: f64| (x - u).hypot(y);
+            let region = match (is_solid, from(0.0), from(0.05)) {
+                (true, _, to_island) if to_island < 0.33 => 2,
+                (true, to_ring, _) if to_ring < 1.0 => 0,
+                (true, _, _) => 3,
+                (false, to_ring, _) if to_ring < 0.75 => 1,
+                _ => continue,
+            };
+            held[region] += packed.particles.volume[i];
+        }
+        for (held, exact) in held.iter().zip(exact) {
+            let half = 0.5 * spacing * spacing;
+            assert!(
+                (held - exact).abs() < half.max(0.01 * exact),
+                "{spacing}: {held} {exact}"
+            );
+        }
+    }
+}
+
+/// A part of less than half a particle has none, and its volume is left to the fluid.
+#[test]
+fn a_part_too_small_for_a_particle_is_told() {
+    let large = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let small = vec![[1.5, 0.5], [1.53, 0.5], [1.53, 0.53], [1.5, 0.53]];
+    let body = Outline::new(vec![large, small]).expect("an outline");
+    let problem = Problem::new(Domain::new([-0.5, -0.5], [2.0, 1.5]), 0.05).body("two", body);
+    let packed = pack(&problem);
+    assert_eq!(packed.omitted.len(), 1);
+    assert!((packed.omitted[0].volume - 9e-4).abs() < 1e-12);
+    let volume = |is_solid: bool| -> f64 {
+        (0..packed.particles.len())
+            .filter(|&i| packed.particles.kind[i] != Kind::Frozen)
+            .filter(|&i| packed.particles.body[i].is_some() == is_solid)
+            .map(|i| packed.particles.volume[i])
+            .sum()
+    };
+    assert!((volume(true) - 1.0).abs() < 1e-9);
+    assert!((volume(false) - 4.0).abs() < 1e-9);
+}

@@ -64,12 +64,20 @@ pub(crate) trait Case {
 /// What to run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Settings {
-    pub(crate) quick: bool,
+    quick: bool,
     only: Option<String>,
     write: bool,
 }
 
 impl Settings {
+    /// A few spacings of the bodies in the plane.
+    pub(crate) fn quick() -> Self {
+        Self {
+            quick: true,
+            ..Self::default()
+        }
+    }
+
     pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
         let mut settings = Self::default();
         let mut arguments = arguments.iter();
@@ -114,7 +122,13 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let folder = root().join("target/bodies");
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut rows = Vec::new();
-    for case in plane::cases().into_iter().chain(space::cases()) {
+    // The short form leaves space out.
+    let space = if settings.quick {
+        Vec::new()
+    } else {
+        space::cases()
+    };
+    for case in plane::cases().into_iter().chain(space) {
         if settings
             .only
             .as_deref()

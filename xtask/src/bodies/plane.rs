@@ -172,7 +172,11 @@ impl Case for Loops {
                     })
                     .map(|other| area(&self.loops[other]))
                     .sum();
-                let what = if depth % 2 == 0 { "part" } else { "pocket" };
+                let what = if depth.is_multiple_of(2) {
+                    "part"
+                } else {
+                    "pocket"
+                };
                 Region {
                     name: format!("{what} {number}"),
                     volume: area(&self.loops[number]) - within,
@@ -185,7 +189,7 @@ impl Case for Loops {
         let [x, y, _] = particle.place;
         (0..self.loops.len())
             .filter(|&number| {
-                let is_solid = self.depth(number) % 2 == 0;
+                let is_solid = self.depth(number).is_multiple_of(2);
                 is_solid == particle.is_solid && winds(&self.loops[number], [x, y])
             })
             .max_by_key(|&number| self.depth(number))
