@@ -149,10 +149,10 @@ fn other_outlines() {
     refuse(
         "clone.svg",
         "<svg>\n<use href='#a'/></svg>",
-        &["line 2", "unlink"],
+        &["paints nothing", "fill"],
     );
     refuse("cut.svg", "<svg><path", &["line 1", "save it again"]);
-    refuse("empty.svg", "<svg/>", &["no closed paths"]);
+    refuse("empty.svg", "<svg/>", &["paints nothing"]);
 }
 
 #[test]
