@@ -2,7 +2,6 @@
 
 mod band;
 mod clashes;
-mod gaps;
 pub(crate) mod parts;
 mod pockets;
 mod round;

@@ -6,7 +6,6 @@ use std::collections::BinaryHeap;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::{KdTree, point};
 
-use super::gaps;
 use super::pockets::Pockets;
 use super::shares::Share;
 use crate::depths::Depths;
@@ -101,13 +100,11 @@ pub(super) fn choose<const D: usize>(
             }
         }
     }
-    let mut chosen = Chosen {
+    Chosen {
         region_of,
         more,
         count,
-    };
-    gaps::close(problem, pockets, sites, on_surface, &mut chosen);
-    chosen
+    }
 }
 
 /// Whether a site is clear of the particle surfaces around its region.
