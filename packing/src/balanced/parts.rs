@@ -22,8 +22,7 @@ pub(crate) struct Parts<const D: usize> {
 }
 
 impl<const D: usize> Parts<D> {
-    /// Takes the bodies apart. More parts than numbers for them are left in one: bodies of that many have no part that is
-    /// large in particles.
+    /// Takes the bodies apart; leaves them whole where there would be more parts than numbers for them.
     pub(crate) fn of(problem: &Problem<D>) -> Self {
         let parts: Vec<Vec<Arc<dyn Surface<D>>>> = (problem.bodies.iter())
             .map(|body| body.surface.parts())

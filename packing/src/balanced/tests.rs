@@ -114,8 +114,8 @@ proptest! {
 }
 
 /// The hexagonal lattice is mirrored with the box, but not turned with it: a turned problem is as good, not the same. The
-/// greatest error is one particle's and varies between seeds (1.0 to 2.3 · 10⁻³ here and at spacings nearby); its mean over
-/// some seeds keeps the bar, and the mean error is the same.
+/// greatest error is one particle's and varies between seeds; its mean over some of them keeps the bar, and the mean error is
+/// the same.
 #[test]
 fn a_mirrored_or_turned_problem_packs_as_well() {
     let flat = [[-0.6, -0.4], [0.7, 0.0], [-0.6, 0.5], [-0.3, 0.05]];

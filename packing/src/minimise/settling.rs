@@ -85,8 +85,7 @@ const NOTE_EVERY: usize = 10;
 
 /// Nothing goes on any more where within [`PATIENCE`] evaluations the largest force has found no new low and the
 /// energy per particle has fallen by less than [`STANDSTILL`] times that force (or 10⁻³, if it is smaller). Where room is short
-/// a few particles with large forces creep for ever: between the walls of two boxes 10,661 evaluations with forces of 0.14,
-/// while the energy fell by 10⁻⁶ in every 250.
+/// a few particles with large forces creep for ever, while the energy falls by less and less.
 const PATIENCE: usize = 200;
 const STANDSTILL: f64 = 1e-5;
 const SMALL_FORCE: f64 = 1e-3;
