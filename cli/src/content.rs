@@ -18,20 +18,22 @@ pub(crate) fn volumes<const D: usize>(problem: &Problem<D>, solution: &Solution<
     let mut volumes = vec![0.0; bodies.len() + 1];
     for i in (0..particles.len()).filter(|&i| particles.kind[i] != Kind::Frozen) {
         let volume = particles.volume[i];
-        let holder = labels.body[i].map_or(bodies.len(), usize::from);
         let on = (particles.body[i].map(usize::from))
             .filter(|_| particles.kind[i].is_on_surface())
-            .map_or(1.0, |body| bodies[body].inner_share());
-        volumes[holder] += on * volume;
-        if on < 1.0 {
-            let own = particles.body[i].map_or(0, usize::from);
+            .map(|own| (own, bodies[own].inner_share()))
+            .filter(|(_, share)| *share < 1.0);
+        let holder = labels.body[i].map_or(bodies.len(), usize::from);
+        // On an exact void the label is of what is around it.
+        let (inner, share) = on.unwrap_or((holder, 1.0));
+        volumes[inner] += share * volume;
+        if let Some((own, share)) = on {
             let hit = bodies[own].surface.closest(particles.position[i]);
             let beyond =
                 point::add_scaled(hit.point, BEYOND_OVER_SPACING * problem.spacing, hit.normal);
             let there = (0..bodies.len())
                 .find(|&b| b != own && bodies[b].surface.inside(beyond))
                 .unwrap_or(bodies.len());
-            volumes[there] += (1.0 - on) * volume;
+            volumes[there] += (1.0 - share) * volume;
         }
     }
     volumes

@@ -27,8 +27,8 @@ const AT_ONCE: usize = 1 << 18;
 ///
 /// Solids and voids hold what is inside their particle surface; a container holds only its wall, the particles on its
 /// surface. Left out are: particles beyond every container's wall, particles in a void (those on the surface of a void too,
-/// unless it is exact: then they are fluid), and fluid where `fluid.fill` is false. Frozen particles count as fluid, and as
-/// beyond any wall.
+/// unless it is exact: then they belong to what is around it, a solid or the fluid), and fluid where `fluid.fill` is false.
+/// Frozen particles count as fluid, and as beyond any wall.
 pub(crate) fn sort<const D: usize>(
     packed: &Packed<D>,
     scene: &Scene,
@@ -80,6 +80,13 @@ pub(crate) fn sort<const D: usize>(
             (Some(void), _) if role(void) == Role::Void => {
                 let is_exact = scene.body[usize::from(void)].surface.0 == 0.0;
                 keep[i] = sits_on == Some(void) && is_exact;
+                if keep[i] {
+                    let around = |&solid: &u16| {
+                        role(solid) == Role::Solid
+                            && surface(solid).inside(particles.position[i])
+                    };
+                    labels.body[i] = holders.iter().copied().find(around);
+                }
             }
             _ => labels.body[i] = body,
         }

@@ -29,6 +29,7 @@
 //! here panic; two and three dimensions part in one `match`, in [`run`].
 
 mod audit;
+mod beyond;
 mod body_file;
 mod checkpoint;
 mod cloud;

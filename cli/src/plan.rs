@@ -10,7 +10,7 @@ use crate::Error;
 use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Built, Dimension, Space};
 use crate::scene::{BandWidth, Fault, Frozen, Method, Role, Scene, Surroundings};
-use crate::{methods, overlap, precedence, roles};
+use crate::{beyond, methods, overlap, precedence, roles};
 
 pub(crate) use crate::memory::available_bytes;
 
@@ -27,6 +27,8 @@ pub struct Plan {
     pub allowed_bytes: f64,
     /// What was mended of each body, by its name; a sentence each.
     pub repairs: Vec<(String, Vec<String>)>,
+    /// Which bodies the sides of the box cut, a sentence each.
+    pub cut: Vec<String>,
 }
 
 /// A scene's problem.
@@ -38,6 +40,8 @@ pub(crate) struct Prepared<const D: usize> {
     pub(crate) loops: Vec<Vec<[f64; 2]>>,
     /// What was mended of each body, a sentence each.
     pub(crate) repairs: Vec<Vec<String>>,
+    /// Which bodies the sides of the box cut, a sentence each.
+    pub(crate) cut: Vec<String>,
     /// What the bodies' files hold.
     pub(crate) read: Vec<ReadBody>,
     /// Seconds spent on building the bodies.
@@ -57,30 +61,27 @@ const ROW_BYTES: f64 = 100.0;
 pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
     let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
     let dimension = dimension(scene)?;
-    let (read, repairs, estimate) = match dimension {
+    match dimension {
         2 => planned::<2>(scene, allowed_bytes),
         _ => planned::<3>(scene, allowed_bytes),
-    }?;
-    Ok(Plan {
-        dimension,
-        read,
-        estimate,
-        allowed_bytes,
-        repairs,
-    })
+    }
 }
 
-type Planned = (Vec<ReadBody>, Vec<(String, Vec<String>)>, Estimate);
-
-fn planned<const D: usize>(scene: &Scene, allowed_bytes: f64) -> Result<Planned, Error>
+fn planned<const D: usize>(scene: &Scene, allowed_bytes: f64) -> Result<Plan, Error>
 where
     Space<D>: Dimension<D>,
 {
     let (prepared, estimate) = prepare::<D>(scene, allowed_bytes)?;
     methods::check(&prepared.problem, &prepared.resolved)?;
     let names = prepared.resolved.body.into_iter().map(|body| body.name);
-    let repairs = names.zip(prepared.repairs).collect();
-    Ok((prepared.read, repairs, estimate))
+    Ok(Plan {
+        dimension: D,
+        read: prepared.read,
+        estimate,
+        allowed_bytes,
+        repairs: names.zip(prepared.repairs).collect(),
+        cut: prepared.cut,
+    })
 }
 
 /// 2 or 3; looks into files where need be. Refuses scenes that do not pass [`Scene::check`], or mix dimensions.
@@ -226,11 +227,13 @@ where
     precedence::settle(scene, &mut all)?;
     let order = roles::order(scene, &all)?;
     let mut all: Vec<Option<Built<D>>> = all.into_iter().map(Some).collect();
-    let all: Vec<Built<D>> = order.iter().filter_map(|&i| all[i].take()).collect();
+    let mut all: Vec<Built<D>> = order.iter().filter_map(|&i| all[i].take()).collect();
     let scene = &Scene {
         body: order.iter().map(|&i| scene.body[i].clone()).collect(),
         ..scene.clone()
     };
+    let domain = domain(scene, &all);
+    let cut = beyond::go_on(scene, &mut all, &domain)?;
     let mut bodies = Vec::new();
     let mut loops = Vec::new();
     let mut repairs = Vec::new();
@@ -243,8 +246,6 @@ where
             inset_over_spacing: body.surface.0,
         });
     }
-    refuse_overlaps(scene, &bodies)?;
-    let domain = domain(scene, &bodies);
     if let Some(Surroundings { min, max }) = &scene.output.surroundings {
         let Bounds {
             min: low,
@@ -276,6 +277,7 @@ where
         },
     };
     let problem = bodies.into_iter().fold(empty, Problem::placed_body);
+    refuse_overlaps(scene, &problem.bodies)?;
     let fail = |source: PackingError| Error::Packing {
         path: scene.path.clone(),
         source,
@@ -333,6 +335,7 @@ where
             resolved,
             loops,
             repairs,
+            cut,
             read,
             seconds: begin.elapsed().as_secs_f64(),
         },
@@ -369,7 +372,7 @@ pub(crate) fn judged<const D: usize>(problem: &Problem<D>, scene: &Scene) -> Pro
     }
 }
 
-fn domain<const D: usize>(scene: &Scene, bodies: &[Body<D>]) -> Domain<D> {
+fn domain<const D: usize>(scene: &Scene, bodies: &[Built<D>]) -> Domain<D> {
     let spec = &scene.domain;
     let corner = |values: &[f64]| std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0));
     let bounds = match (&spec.min, &spec.max) {

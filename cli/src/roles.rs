@@ -87,7 +87,7 @@ pub(crate) fn order<const D: usize>(scene: &Scene, all: &[Built<D>]) -> Result<V
             (Lie::Out, Lie::Out) => {}
             _ => {
                 return fail(format!(
-                    "the void \"{}\" crosses the surface of the solid body \"{}\"; move it in or out, or make it part of the body's shape",
+                    "the void \"{}\" crosses the surface of the solid body \"{}\"; move it in or out, or give it a higher precedence (precedence = 1) to cut the body",
                     name(void),
                     name(solid)
                 ));

@@ -105,6 +105,7 @@ where
         loops,
         read,
         repairs,
+        cut,
         seconds: built,
     } = prepared;
     let scene = &resolved;
@@ -136,6 +137,7 @@ where
     report.seconds.measuring = measuring.elapsed().as_secs_f64();
     report.seconds.total += report.seconds.measuring;
     report.mass_correction = masses.map(MassReport::from);
+    report.warnings.splice(0..0, cut);
     for (body, repairs) in report.bodies.iter_mut().zip(repairs) {
         body.repairs = repairs;
     }

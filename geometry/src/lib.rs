@@ -31,7 +31,7 @@
 //! | triangles with defects: check, mend, join | [`Soup`], [`Soup::read`], [`FastWinding`] |
 //! | loops with defects: check, mend, join | [`Sketch`], [`Sketch::read`] |
 //! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
-//! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`], [`Repeated`] (in a periodic box) |
+//! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`], [`Repeated`] (in a periodic box), [`Continued`] (beyond a box's sides) |
 //! | distances on a grid, and Booleans of them | [`LevelSet`] |
 //! | points: even ([`Surface::sample`]), by a weight, for thin bodies | [`sample_weighted`], [`sample_particles`], [`thickness()`] |
 //! | underneath | [`Bvh`] |
@@ -43,6 +43,7 @@
 //! project.
 
 mod bvh;
+mod continued;
 mod error;
 mod level_inset;
 mod level_set;
@@ -64,6 +65,7 @@ mod thin;
 mod winding;
 
 pub use bvh::Bvh;
+pub use continued::Continued;
 pub use error::GeometryError;
 pub use level_inset::LevelInset;
 pub use level_set::LevelSet;

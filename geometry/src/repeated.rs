@@ -9,9 +9,10 @@ use crate::surface::{Closest, Features, Surface};
 
 /// A surface in a box with periodic axes: whoever asks what is near, or inside, sees the images too.
 ///
-/// Size, box and points (measure, volume, bounds, features, samples) are those of the surface itself, once. The surface
-/// lies within the box, so that no two images have room in common; a place may lie anywhere. Cost of a query: one of the
-/// surface, and one more for every image whose box is nearer than what was found, seldom any.
+/// Size and points (measure, volume, corners, samples) are those of the surface itself, once, points carried into the
+/// box; its own box is, on an axis whose side it passes, the whole period. No two images have room in common, so the surface is
+/// shorter than the periods ([`Continued`](crate::Continued) is for what meets its image); a place may lie anywhere.
+/// Cost of a query: one of the surface, and one more for every image whose box is nearer than what was found, seldom any.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -29,7 +30,7 @@ pub struct Repeated<const D: usize> {
     surface: Arc<dyn Surface<D>>,
     domain: Domain<D>,
     bounds: Bounds<D>,
-    /// From the surface to its images, those that may be nearest to places of the box.
+    /// From the surface to its image in the box, mostly none, and to those around, which may be nearest to places of the box.
     shifts: Vec<[f64; D]>,
 }
 
@@ -38,11 +39,12 @@ impl<const D: usize> Repeated<D> {
     pub fn new(surface: Arc<dyn Surface<D>>, domain: &Domain<D>) -> Self {
         let size = domain.bounds.size();
         let steps = |k: usize| if domain.periodic[k] { 1_i8 } else { 0 };
-        let mut shifts = Vec::new();
+        let own = domain.whole_periods(surface.bounds().center());
+        let mut shifts = vec![own];
         let mut step: [i8; D] = std::array::from_fn(|k| -steps(k));
         loop {
             if step != [0; D] {
-                shifts.push(std::array::from_fn(|k| f64::from(step[k]) * size[k]));
+                shifts.push(std::array::from_fn(|k| own[k] + f64::from(step[k]) * size[k]));
             }
             let Some(axis) = (0..D).rev().find(|&k| step[k] < steps(k)) else {
                 break;
@@ -52,23 +54,38 @@ impl<const D: usize> Repeated<D> {
                 step[k] = -steps(k);
             }
         }
+        let (mut bounds, sides) = (surface.bounds(), domain.bounds);
+        for k in (0..D).filter(|&k| domain.periodic[k]) {
+            if bounds.min[k] < sides.min[k] || bounds.max[k] > sides.max[k] {
+                (bounds.min[k], bounds.max[k]) = (sides.min[k], sides.max[k]);
+            }
+        }
         Self {
-            bounds: surface.bounds(),
+            bounds,
             surface,
             domain: *domain,
             shifts,
         }
     }
 
+    /// Points of the surface, carried into the box.
+    fn wrapped(&self, mut hits: Vec<Closest<D>>) -> Vec<Closest<D>> {
+        for hit in &mut hits {
+            hit.point = self.domain.wrap(hit.point);
+        }
+        hits
+    }
+
     /// The nearest of the surface and its images within `radius`; the least signed distance, so that who is inside one is inside.
     fn nearest(&self, p: [f64; D], radius: f64) -> Option<Closest<D>> {
         let wrapped = self.domain.wrap(p);
         let back = point::sub(p, wrapped);
-        let mut best = self.surface.closest_within(wrapped, radius);
-        for &shift in &self.shifts {
+        let mut best: Option<Closest<D>> = None;
+        for (number, &shift) in self.shifts.iter().enumerate() {
             let seen = point::sub(wrapped, shift);
             let reach = best.map_or(radius, |hit| hit.distance.min(radius));
-            if reach < 0.0 || self.bounds.distance_squared(seen) > reach * reach {
+            let is_far = || self.surface.bounds().distance_squared(seen) > reach * reach;
+            if reach < 0.0 || number > 0 && is_far() {
                 continue;
             }
             if let Some(hit) = self.surface.closest_within(seen, reach)
@@ -99,10 +116,9 @@ impl<const D: usize> Surface<D> for Repeated<D> {
 
     fn inside(&self, p: [f64; D]) -> bool {
         let wrapped = self.domain.wrap(p);
-        let seen = (self.shifts.iter()).map(|&shift| point::sub(wrapped, shift));
-        std::iter::once(wrapped)
-            .chain(seen)
-            .any(|p| self.bounds.contains(p) && self.surface.inside(p))
+        (self.shifts.iter())
+            .map(|&shift| point::sub(wrapped, shift))
+            .any(|p| self.surface.bounds().contains(p) && self.surface.inside(p))
     }
 
     fn measure(&self) -> f64 {
@@ -118,7 +134,11 @@ impl<const D: usize> Surface<D> for Repeated<D> {
     }
 
     fn features(&self) -> Features<D> {
-        self.surface.features()
+        let mut features = self.surface.features();
+        for corner in &mut features.corners {
+            *corner = self.domain.wrap(*corner);
+        }
+        features
     }
 
     fn parts(&self) -> Vec<Arc<dyn Surface<D>>> {
@@ -135,11 +155,11 @@ impl<const D: usize> Surface<D> for Repeated<D> {
     }
 
     fn sample(&self, count: usize) -> Result<Vec<Closest<D>>, GeometryError> {
-        self.surface.sample(count)
+        Ok(self.wrapped(self.surface.sample(count)?))
     }
 
     fn strew(&self, count: usize) -> Vec<Closest<D>> {
-        self.surface.strew(count)
+        self.wrapped(self.surface.strew(count))
     }
 }
 

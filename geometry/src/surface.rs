@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sphpack_neighbors::Bounds;
+use sphpack_neighbors::{Bounds, Domain};
 
 use crate::GeometryError;
 
@@ -68,6 +68,12 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
 
     /// Corners and sharp edges.
     fn features(&self) -> Features<D>;
+
+    /// The box beyond whose sides the body goes on, where sizes, corners, edges and points are those within a box
+    /// ([`Continued`](crate::Continued)); `None` for a body that is closed.
+    fn window(&self) -> Option<Domain<D>> {
+        None
+    }
 
     /// The surface moved inward by `depth ≥ 0` (scene units).
     ///

@@ -144,6 +144,13 @@ impl<const D: usize> CellList<D> {
         &self.particle[..self.targets]
     }
 
+    /// Slot by slot the particle in it, and what to add to that one's position to get the slot's, which is not zero for periodic
+    /// images and, on periodic axes, for particles that are not in the box. The targets' slots come first.
+    pub fn sources(&self) -> impl ExactSizeIterator<Item = (usize, [f64; D])> {
+        let shift = |slot: usize| self.shift.get(slot).copied().unwrap_or([0.0; D]);
+        (self.particle.iter().enumerate()).map(move |(slot, &i)| (i as usize, shift(slot)))
+    }
+
     /// Brings the list up to date; true where it had to be built anew: the number of points changed, or one moved
     /// more than half the skin. Positions must be finite. Changing which particles are targets needs
     /// [`CellList::invalidate`].

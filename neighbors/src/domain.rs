@@ -50,6 +50,18 @@ impl<const D: usize> Domain<D> {
         })
     }
 
+    /// The whole periods that carry `p` into the box; 0 along axes that are not periodic.
+    pub fn whole_periods(&self, p: [f64; D]) -> [f64; D] {
+        let size = self.bounds.size();
+        std::array::from_fn(|k| {
+            if self.periodic[k] {
+                -((p[k] - self.bounds.min[k]) / size[k]).floor() * size[k]
+            } else {
+                0.0
+            }
+        })
+    }
+
     /// The place of the box nearest to `p`, periodic axes left as they are.
     #[inline]
     pub fn clamp(&self, p: [f64; D]) -> [f64; D] {

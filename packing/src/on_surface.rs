@@ -10,6 +10,9 @@ use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::state::{Damaged, State, load_as_many};
 
+/// How often a particle beside a side that its surface passes aslant is put onto the surface and back into the box.
+const TRIES_AT_SIDES: usize = 8;
+
 /// The boundary particles and the outward normals where they sit.
 #[derive(Debug, Clone, Default)]
 pub struct OnSurface<const D: usize> {
@@ -40,8 +43,20 @@ impl<const D: usize> OnSurface<D> {
         reach: f64,
     ) {
         self.project_by(particles, |p, body| {
-            let held = surfaces.get(usize::from(body))?;
-            held.surface.closest_within(p, reach)
+            let surface = surfaces.get(usize::from(body))?.surface.as_ref();
+            let mut hit = surface.closest_within(p, reach)?;
+            // Where the body goes on beyond the box its particles do not.
+            let Some(window) = surface.window() else {
+                return Some(hit);
+            };
+            for _ in 0..TRIES_AT_SIDES {
+                let kept = window.clamp(hit.point);
+                if kept == hit.point {
+                    break;
+                }
+                hit = surface.closest_within(kept, reach)?;
+            }
+            Some(hit)
         });
     }
 

@@ -216,10 +216,11 @@ impl<const D: usize> Problem<D> {
         })
     }
 
-    /// Adds a body. On periodic axes everything that asks where it is sees its images too.
+    /// Adds a body. On periodic axes everything that asks where it is sees its images too. One that meets its images, or
+    /// passes an open side, must be [`Continued`](sphpack_geometry::Continued) beyond the same box.
     #[must_use]
     pub fn placed_body(mut self, mut body: Body<D>) -> Self {
-        if self.domain.is_periodic() {
+        if self.domain.is_periodic() && body.surface.window().is_none() {
             body.surface = Arc::new(Repeated::new(body.surface, &self.domain));
         }
         self.bodies.push(body);

@@ -165,6 +165,9 @@ fn dry_run(scene: &Scene, is_quiet: bool) -> Result<u8, Error> {
         for (body, repairs) in &plan.repairs {
             warn(body, repairs);
         }
+        for words in &plan.cut {
+            let _ = writeln!(std::io::stderr(), "sphpack: warning: {words}");
+        }
     }
     let estimate = plan.estimate;
     let gibibytes = |bytes: f64| bytes / 1_073_741_824.0;

@@ -19,11 +19,11 @@ pub(super) fn check_body(body: &BodySpec, index: usize) -> Checked {
     check_shape(&body.shape, &called, &at("shape"))?;
     positive(&at("scale"), &format!("{called}: scale"), body.scale)?;
     positive(&at("density"), &format!("{called}: density"), body.density)?;
-    if body.precedence != 0 && body.role != Role::Solid {
+    if body.precedence != 0 && body.role == Role::Container {
         return fault(
             &at("precedence"),
             format!(
-                "{called}: precedence is for solid bodies that overlap; leave it out, or make the role \"solid\""
+                "{called}: precedence is for solid bodies that overlap, and voids that cut them; leave it out, or make the role \"solid\""
             ),
         );
     }

@@ -311,10 +311,10 @@ fn what_is_refused() {
             ),
         )
         .with(
-            "void.toml",
+            "container.toml",
             scene(
                 0.1,
-                &[body("disc", DISC, "role = \"void\"\nprecedence = 1")],
+                &[body("disc", DISC, "role = \"container\"\nprecedence = 1")],
             ),
         )
         .with(
@@ -335,9 +335,9 @@ fn what_is_refused() {
             ],
         ),
         (
-            "void.toml",
+            "container.toml",
             &[
-                "void.toml:8:",
+                "container.toml:8:",
                 "body \"disc\": precedence is for solid bodies",
             ],
         ),

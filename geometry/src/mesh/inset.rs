@@ -48,43 +48,55 @@ pub(super) fn inset(mesh: &Mesh, depth: f64) -> Result<Arc<dyn Surface<3>>, Geom
 
 /// Σ ℓ w over edges and Σ c over vertices.
 fn coefficients(mesh: &Mesh) -> (f64, f64) {
-    let across = topology::neighbors(&mesh.triangles);
-    let width = |t: usize, k: usize| {
-        let turn = mesh.normals.turn[t][k];
-        if turn > 0.0 {
-            (0.5 * turn).tan().min(1e3)
-        } else {
-            0.5 * turn
-        }
-    };
     let mut edges = 0.0;
+    for (t, corners) in mesh.corners.iter().enumerate() {
+        for k in 0..3 {
+            let length = sphpack_neighbors::point::distance(corners[k], corners[(k + 1) % 3]);
+            // Every edge is met twice.
+            edges += 0.5 * length * width(mesh, t, k);
+        }
+    }
+    let vertices = of_vertices(mesh).iter().fold(0.0, |sum, c| sum + c);
+    (edges, vertices)
+}
+
+/// c of every vertex; 0 of those that no triangle uses.
+pub(crate) fn of_vertices(mesh: &Mesh) -> Vec<f64> {
+    let across = topology::neighbors(&mesh.triangles);
     // Per vertex: one of its triangles' corners, and the sum of the angles around it.
     let mut start = vec![(0, 0); mesh.vertices.len()];
     let mut angles = vec![0.0; mesh.vertices.len()];
     for (t, corners) in mesh.corners.iter().enumerate() {
         for k in 0..3 {
-            let length = sphpack_neighbors::point::distance(corners[k], corners[(k + 1) % 3]);
-            // Every edge is met twice.
-            edges += 0.5 * length * width(t, k);
             let v = mesh.triangles[t][k] as usize;
             start[v] = (t, k);
             angles[v] += triangle::angle(corners, k);
         }
     }
-    let mut vertices = 0.0;
-    for v in 0..mesh.vertices.len() {
-        if angles[v] == 0.0 {
-            continue;
-        }
-        let defect = std::f64::consts::TAU - angles[v];
-        let term = if mesh.normals.is_corner[v] {
-            corner_term(mesh, &across, start[v], &width)
-        } else {
-            None
-        };
-        vertices += term.unwrap_or(defect);
+    (0..mesh.vertices.len())
+        .map(|v| {
+            if angles[v] == 0.0 {
+                return 0.0;
+            }
+            let defect = std::f64::consts::TAU - angles[v];
+            let term = if mesh.normals.is_corner[v] {
+                corner_term(mesh, &across, start[v])
+            } else {
+                None
+            };
+            term.unwrap_or(defect)
+        })
+        .collect()
+}
+
+/// w of side `k` of a triangle.
+pub(crate) fn width(mesh: &Mesh, t: usize, k: usize) -> f64 {
+    let turn = mesh.normals.turn[t][k];
+    if turn > 0.0 {
+        (0.5 * turn).tan().min(1e3)
+    } else {
+        0.5 * turn
     }
-    (edges, vertices)
 }
 
 /// c of [`inset`] for a vertex with flat faces; `None` where it is not that simple.
@@ -92,7 +104,6 @@ fn corner_term(
     mesh: &Mesh,
     across: &[[(u32, u8); 3]],
     (t, k): (usize, usize),
-    width: &impl Fn(usize, usize) -> f64,
 ) -> Option<f64> {
     // Around the vertex over the sides that leave it: angle of each triangle, and what lies beyond its side.
     let mut ring: Vec<(f64, f64, f64)> = Vec::new();
@@ -101,7 +112,7 @@ fn corner_term(
         ring.push((
             triangle::angle(&mesh.corners[at], corner),
             mesh.normals.turn[at][corner],
-            width(at, corner),
+            width(mesh, at, corner),
         ));
         let (next, back) = across[at][corner];
         at = next as usize;

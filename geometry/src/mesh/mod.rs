@@ -1,7 +1,7 @@
 //! Bodies in space: closed triangle meshes.
 
 mod features;
-mod inset;
+pub(crate) mod inset;
 mod normals;
 mod pieces;
 mod strew;

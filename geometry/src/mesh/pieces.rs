@@ -18,7 +18,7 @@ struct Shell {
 
 impl Mesh {
     /// The parts, each an outer shell with the cavities in it; none where there is but one.
-    pub(super) fn pieces(&self) -> Vec<Self> {
+    pub(crate) fn pieces(&self) -> Vec<Self> {
         let shells = self.shells();
         if shells.iter().filter(|shell| shell.volume > 0.0).count() < 2 {
             return Vec::new();

@@ -192,6 +192,11 @@ impl Outline {
         [self.points[i], self.points[self.next[i] as usize]]
     }
 
+    /// Which of [`Outline::points`] are corners.
+    pub(crate) fn is_corner(&self) -> &[bool] {
+        &self.corner
+    }
+
     /// The sides that the ray from `p` in the direction +x may cross, and some more.
     pub(crate) fn beside(&self, p: [f64; 2], each: impl FnMut(usize)) {
         self.bvh.visit(

@@ -7,7 +7,7 @@ use crate::segment::signed_area;
 
 impl Outline {
     /// The parts, in the order of their outer loops, each with the holes in it; none where there is but one.
-    pub(super) fn pieces(&self) -> Vec<Self> {
+    pub(crate) fn pieces(&self) -> Vec<Self> {
         let loops: Vec<&[[f64; 2]]> = self.loops().collect();
         let area: Vec<f64> = loops.iter().map(|points| signed_area(points)).collect();
         // Holes run clockwise.

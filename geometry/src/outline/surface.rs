@@ -152,6 +152,7 @@ impl Surface<2> for Outline {
             .map(|r| Ring {
                 points: self.points[r[0]..r[1]].to_vec(),
                 corner: self.corner[r[0]..r[1]].to_vec(),
+                is_open: false,
             })
             .collect();
         Ok(along(self, &rings, count))

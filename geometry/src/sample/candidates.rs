@@ -1,6 +1,6 @@
 //! Many points strewn over a surface by area, of which the evenest are kept.
 
-use sphpack_neighbors::{Bounds, point};
+use sphpack_neighbors::{Bounds, Domain, point};
 
 use crate::level_inset::cut;
 use crate::surface::{Closest, Feature};
@@ -21,13 +21,13 @@ pub(crate) struct Search {
 }
 
 /// For points that are evened out afterwards.
-pub(super) const QUICK: Search = Search {
+pub(crate) const QUICK: Search = Search {
     extra: 2,
     both_sides: false,
 };
 
 /// For thin bodies.
-pub(super) const THOROUGH: Search = Search {
+pub(crate) const THOROUGH: Search = Search {
     extra: 5,
     both_sides: true,
 };
@@ -67,6 +67,31 @@ impl<const D: usize> Candidates<D> {
         wanted: usize,
         search: Search,
     ) -> Self {
+        Self::in_some(bounds, near, spacing, wanted, search, |_| true)
+    }
+
+    /// [`Candidates::in_boxes`] within a box beyond which the surface goes on; as near to its sides as the small boxes are
+    /// wide.
+    pub(crate) fn in_window(
+        window: &Domain<D>,
+        near: &impl Fn([f64; D]) -> Closest<D>,
+        spacing: f64,
+        wanted: usize,
+        search: Search,
+    ) -> Self {
+        let bounds = &window.bounds;
+        let is_in = |p: [f64; D]| (0..D).all(|k| p[k] >= bounds.min[k] && p[k] < bounds.max[k]);
+        Self::in_some(bounds, near, spacing, wanted, search, is_in)
+    }
+
+    fn in_some(
+        bounds: &Bounds<D>,
+        near: &impl Fn([f64; D]) -> Closest<D>,
+        spacing: f64,
+        wanted: usize,
+        search: Search,
+        is_wanted: impl Fn([f64; D]) -> bool,
+    ) -> Self {
         let largest = bounds.size().iter().copied().fold(0.0, f64::max) * 1.02;
         let mut leaf = LEAF_OVER_SPACING * spacing;
         let mut levels = 0;
@@ -80,6 +105,7 @@ impl<const D: usize> Candidates<D> {
         let mut pieces = Vec::new();
         let root = look(near, center, 0.5 * leaf);
         gather(near, &root, levels, search, &mut pieces);
+        pieces.retain(|piece| is_wanted(piece.center));
         let mut noise = Noise::default();
         Self::systematic(
             wanted,

@@ -10,56 +10,71 @@ use crate::surface::{Closest, Feature, Surface};
 /// Corners nearer than this many spacings along the curve share one point.
 const CROWDED: f64 = 0.5;
 
-/// A closed polyline on or near a curve.
+/// A polyline on or near a curve, closed or from side to side of a box beyond which the curve goes on.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Ring<const D: usize> {
-    /// Its points, the first not repeated at the end.
+    /// Its points; where it is closed the first is not repeated at the end.
     pub(crate) points: Vec<[f64; D]>,
-    /// Which of them are corners.
+    /// Which of them are corners; not the ends of an open one.
     pub(crate) corner: Vec<bool>,
+    /// Whether it is not closed.
+    pub(crate) is_open: bool,
 }
 
-/// A piece of a ring between two corners, or all of a smooth ring: where it starts and how long it is.
+impl<const D: usize> Ring<D> {
+    /// From its first point to its last, or around to the first again.
+    pub(super) fn line(&self) -> Polyline<D> {
+        let again = self.points.first().filter(|_| !self.is_open);
+        Polyline::new(self.points.iter().chain(again).copied().collect())
+    }
+}
+
+/// A piece of a ring between two corners or ends, or all of a smooth closed ring: where it starts and how long it is.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Run {
     ring: usize,
     pub(super) start: f64,
     pub(super) length: f64,
     from_corner: bool,
+    /// Whether it begins, or ends, where an open ring does: half an interval from there is its first, or last, point.
+    is_open: [bool; 2],
+}
+
+impl Run {
+    /// Intervals beyond its points: half a one before the first, less half a one behind the last.
+    fn more(&self) -> f64 {
+        0.5 * (f64::from(u8::from(self.is_open[0])) - f64::from(u8::from(self.is_open[1])))
+    }
+
+    /// The way along it to the `i`-th of so many points.
+    fn way(&self, i: usize, points: usize) -> f64 {
+        let lead = if self.is_open[0] { 0.5 } else { 0.0 };
+        self.length * (i as f64 + lead) / (points as f64 + self.more())
+    }
 }
 
 /// `count` points evenly along `rings`, put onto `surface`: corners first, of which those nearer than half a spacing
 /// share one; then the runs between them in turn. A run gets the number of intervals that its length
-/// asks for, at least one where it joins corners. Where there are fewer points than corners, evenly taken corners.
+/// asks for, at least one where it joins corners; at the ends of open rings half an interval is left, so that what goes on
+/// beyond is as even. Where there are fewer points than corners, evenly taken corners.
 pub(crate) fn along<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     rings: &[Ring<D>],
     count: usize,
 ) -> Vec<Closest<D>> {
-    let closed: Vec<Polyline<D>> = rings
-        .iter()
-        .map(|ring| {
-            Polyline::new(
-                ring.points
-                    .iter()
-                    .chain(ring.points.first())
-                    .copied()
-                    .collect(),
-            )
-        })
-        .collect();
-    let length: f64 = closed.iter().map(Polyline::length).sum();
-    if count == 0 || closed.is_empty() || length.is_nan() {
+    let lines: Vec<Polyline<D>> = rings.iter().map(Ring::line).collect();
+    let length: f64 = lines.iter().map(Polyline::length).sum();
+    if count == 0 || lines.is_empty() || length.is_nan() {
         return Vec::new();
     }
     let least = CROWDED * length / count as f64;
     let runs: Vec<Run> = (0..rings.len())
-        .flat_map(|ring| runs_of(ring, &rings[ring], &closed[ring], least))
+        .flat_map(|ring| runs_of(ring, &rings[ring], &lines[ring], least))
         .collect();
     let place = |run: &Run, way: f64, feature: Feature| {
-        let line = &closed[run.ring];
+        let line = &lines[run.ring];
         let way = run.start + way;
-        let way = if way > line.length() {
+        let way = if way > line.length() && !rings[run.ring].is_open {
             way - line.length()
         } else {
             way
@@ -79,10 +94,9 @@ pub(crate) fn along<const D: usize, S: Surface<D> + ?Sized>(
         return thinned(corners, count);
     }
     let mut sites = corners;
-    for (run, intervals) in runs.iter().zip(shares(&runs, count)) {
-        for i in usize::from(run.from_corner)..intervals {
-            let way = run.length * i as f64 / intervals as f64;
-            sites.push(place(run, way, Feature::Smooth));
+    for (run, points) in runs.iter().zip(shares(&runs, count)) {
+        for i in usize::from(run.from_corner)..points {
+            sites.push(place(run, run.way(i, points), Feature::Smooth));
         }
     }
     sites
@@ -104,7 +118,7 @@ pub(super) fn runs_of<const D: usize>(
     {
         let way = line.way(i);
         let apart = |other: &f64| way - other >= least;
-        let around = |other: &f64| line.length() - way + other >= least;
+        let around = |other: &f64| ring.is_open || line.length() - way + other >= least;
         if starts.last().is_none_or(apart) && starts.first().is_none_or(around) {
             starts.push(way);
         }
@@ -114,10 +128,28 @@ pub(super) fn runs_of<const D: usize>(
         start,
         length: end - start,
         from_corner,
+        is_open: [false; 2],
     };
     let Some(&first) = starts.first() else {
-        return vec![run(0.0, line.length(), false)];
+        return vec![Run {
+            is_open: [ring.is_open; 2],
+            ..run(0.0, line.length(), false)
+        }];
     };
+    if ring.is_open {
+        let before = Run {
+            is_open: [true, false],
+            ..run(0.0, first, false)
+        };
+        let ends = starts[1..].iter().copied().chain([line.length()]);
+        let mut runs: Vec<Run> = std::iter::once(before)
+            .chain(starts.iter().zip(ends).map(|(&start, end)| run(start, end, true)))
+            .collect();
+        if let Some(last) = runs.last_mut() {
+            last.is_open[1] = true;
+        }
+        return runs;
+    }
     let ends = starts[1..].iter().copied().chain([first + line.length()]);
     starts
         .iter()
@@ -128,10 +160,11 @@ pub(super) fn runs_of<const D: usize>(
 
 /// How many of `count` intervals each run gets: as its length asks, so that the intervals' lengths differ least (their
 /// sum of squares Σ L²/n is smallest, which the next interval lowers by L²/n(n + 1); for short runs that is not the
-/// same as largest remainders), and at least one where it starts at a corner (of which there are at most `count`).
+/// same as largest remainders), and at least one where it starts at a corner (of which there are at most `count`). At the
+/// end of an open ring half an interval needs no point, or half a point no interval.
 fn shares(runs: &[Run], count: usize) -> Vec<usize> {
     let total: f64 = runs.iter().map(|run| run.length).sum();
-    let quota = |i: usize| runs[i].length / total * count as f64;
+    let quota = |i: usize| (runs[i].length / total * count as f64 - runs[i].more()).max(0.0);
     let fewest = |i: usize| usize::from(runs[i].from_corner);
     let mut shares: Vec<usize> = (0..runs.len())
         .map(|i| (quota(i).floor() as usize).max(fewest(i)))

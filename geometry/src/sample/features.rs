@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use sphpack_neighbors::point;
+use sphpack_neighbors::{Domain, point};
 
 use super::polyline::Polyline;
 use crate::surface::{Closest, Feature, Surface};
@@ -56,15 +56,20 @@ pub(crate) fn occupied<const D: usize, S: Surface<D> + ?Sized>(
         })
         .collect();
     let mut along = Vec::new();
+    let window = surface.window();
     for chain in &chains {
         let part = ends_at(chain.points()[0]);
-        if part.is_none_or(|&size| size < SHORT * spacing) {
+        let passes = chain_passes(chain, window.as_ref());
+        if passes == [false; 2] && part.is_none_or(|&size| size < SHORT * spacing) {
             continue;
         }
-        let intervals = (chain.length() / spacing).round().max(1.0);
-        let first = usize::from(!chain.is_closed());
+        // Half an interval is left where the edge passes a side of the box, so that what goes on beyond is as even.
+        let [lead, trail] = passes.map(|passes| if passes { 0.5 } else { 0.0 });
+        let intervals = (chain.length() / spacing + lead - trail).round().max(1.0);
+        let first = usize::from(!chain.is_closed() && !passes[0]);
         for i in first..intervals as usize {
-            let (p, tangent) = chain.at(chain.length() * i as f64 / intervals);
+            let way = (i as f64 + lead) / (intervals + lead - trail);
+            let (p, tangent) = chain.at(chain.length() * way);
             let site = on_edge(surface, p, tangent, LOOK * spacing);
             if crowd.admits(site.point) {
                 along.push(site);
@@ -73,6 +78,24 @@ pub(crate) fn occupied<const D: usize, S: Surface<D> + ?Sized>(
     }
     sites.extend(thinned(along, count - sites.len()));
     sites
+}
+
+/// How near to a side of the box, in parts of its size, an edge ends that passes it.
+const AT_SIDE: f64 = 1e-6;
+
+/// Whether an edge begins, and ends, where it passes a side of a box.
+fn chain_passes<const D: usize>(
+    chain: &Polyline<D>,
+    window: Option<&Domain<D>>,
+) -> [bool; 2] {
+    let Some(bounds) = window.map(|window| window.bounds).filter(|_| !chain.is_closed()) else {
+        return [false; 2];
+    };
+    let slack = AT_SIDE * bounds.diagonal();
+    let points = chain.points();
+    [points[0], points[points.len() - 1]].map(|p| {
+        (0..D).any(|k| p[k] - bounds.min[k] <= slack || bounds.max[k] - p[k] <= slack)
+    })
 }
 
 /// `p`, which is on or near a sharp edge that runs along `tangent`, put onto it: from within the wedge between the

@@ -21,8 +21,7 @@ use rayon::prelude::*;
 use crate::GeometryError;
 use crate::surface::{Closest, Feature, Surface};
 
-pub(crate) use candidates::Candidates;
-use candidates::{QUICK, THOROUGH};
+pub(crate) use candidates::{Candidates, QUICK, Search, THOROUGH};
 pub(crate) use curve::{Ring, along};
 pub(crate) use features::occupied;
 pub(crate) use local::Local;

@@ -1,7 +1,6 @@
 //! Polygons with their corners on a curve in the plane.
 
 use super::curve::runs_of;
-use super::polyline::Polyline;
 use super::trace;
 use crate::surface::{Closest, Surface};
 
@@ -27,8 +26,7 @@ pub fn polygons<const D: usize>(surface: &dyn Surface<D>, side: f64) -> Vec<Vec<
     let corners = surface.features().corners;
     let rings = trace::rings(&surface.bounds(), &near, &corners, side);
     let polygon = |(number, ring): (usize, &super::Ring<D>)| {
-        let closed = ring.points.iter().chain(ring.points.first()).copied();
-        let line = Polyline::new(closed.collect());
+        let line = ring.line();
         let mut points = Vec::new();
         for run in runs_of(number, ring, &line, CROWDED * side) {
             let sides = (run.length / side).round().max(1.0);

@@ -1,9 +1,10 @@
 //! Points on a surface that push each other apart until they are spread evenly.
 
 use rayon::prelude::*;
-use sphpack_neighbors::{Bounds, CellList, Domain, point};
+use sphpack_neighbors::{CellList, Domain, point};
 
 use super::local::{Local, Spot, apart, greatest};
+use super::thinning::around;
 use crate::surface::Closest;
 
 /// Range of the push, in spacings: the nearest ring of neighbours (1.07 in a perfect hexagonal lattice) and not the
@@ -41,7 +42,8 @@ const PATIENCE: usize = 5;
 /// Moves all sites but the first `held` until all are spread as evenly as is wanted of each, by FIRE on the energy of
 /// a smooth repulsion along the surface. Where `locals` ask for wider gaps the push is the stronger, by as much as
 /// keeps the pressure the same everywhere. `spacing` is the mean one. `near` is the closest point of a place near the surface. Sites end up near the surface, not
-/// exactly on it; only their points are meaningful.
+/// exactly on it; only their points are meaningful. In a `window` images across periodic sides push too, and mirror
+/// images across open ones, so that the sites end half a gap from these.
 ///
 /// Tried and left: a longer range (2.2, 2.6) costs more and brings nothing; without the factor 1/r nearest distances
 /// vary by 3.9 % after 40 steps, with it by 3.6 %. The way over a bend taken unfolded into one plane instead of the
@@ -52,6 +54,7 @@ pub(super) fn even_out<const D: usize>(
     held: usize,
     (locals, spacing): (&[Local], f64),
     near: &(impl Fn([f64; D]) -> Closest<D> + Sync),
+    window: Option<&Domain<D>>,
 ) {
     let mut movers: Vec<Mover<D>> = sites
         .iter()
@@ -65,7 +68,7 @@ pub(super) fn even_out<const D: usize>(
             velocity: [0.0; D],
         })
         .collect();
-    let mut pushes = Pushes::new(&movers, held, spacing);
+    let mut pushes = Pushes::new(&movers, held, spacing, window);
     let (mut step, mut mixing, mut patience) = (0.3 * LONGEST, MIXING, 0);
     for _ in 0..if D == 2 { STEPS_ON_CURVE } else { STEPS } {
         let force = pushes.on(&movers);
@@ -99,6 +102,9 @@ pub(super) fn even_out<const D: usize>(
                 let kept = point::scale(mover.velocity, keep);
                 mover.velocity = point::add_scaled(kept, turn + step, f);
                 mover.advance(step, spacing, near);
+                if let Some(window) = window {
+                    mover.point = window.clamp(mover.point);
+                }
             });
     }
     for (site, mover) in sites.iter_mut().zip(&movers).skip(held) {
@@ -144,6 +150,7 @@ impl<const D: usize> Mover<D> {
 #[derive(Debug)]
 struct Pushes<const D: usize> {
     list: CellList<D>,
+    window: Option<Domain<D>>,
     held: usize,
     spacing: f64,
     points: Vec<[f64; D]>,
@@ -154,13 +161,13 @@ struct Pushes<const D: usize> {
 }
 
 impl<const D: usize> Pushes<D> {
-    fn new(movers: &[Mover<D>], held: usize, spacing: f64) -> Self {
+    fn new(movers: &[Mover<D>], held: usize, spacing: f64, window: Option<&Domain<D>>) -> Self {
         let points: Vec<[f64; D]> = movers.iter().map(|mover| mover.point).collect();
-        let bounds = Bounds::of(&points);
-        let domain = Domain::new(bounds.min, bounds.max);
+        let domain = around(&points, window);
         let widest = greatest(movers.iter().map(|mover| mover.local));
         Self {
             list: CellList::new(&domain, REACH * widest).with_skin(0.3 * spacing),
+            window: window.copied(),
             held,
             spacing,
             slots: Vec::with_capacity(points.len()),
@@ -178,11 +185,12 @@ impl<const D: usize> Pushes<D> {
         self.list.update(&self.points, |_| true);
         let order = self.list.target_particles();
         self.slots.clear();
-        self.slots.extend(order.iter().map(|&i| {
-            let mover = &movers[i as usize];
-            (mover.point, mover.normal, mover.local)
+        self.slots.extend(self.list.sources().map(|(i, shift)| {
+            let mover = &movers[i];
+            (point::add(mover.point, shift), mover.normal, mover.local)
         }));
         let (slots, held, spacing) = (&self.slots, self.held, self.spacing);
+        let window = self.window.as_ref();
         self.list.for_each_block(&mut self.by_slot, |block, out| {
             for (lane, out) in out.iter_mut().enumerate() {
                 let slot = block.first_slot + lane;
@@ -191,6 +199,11 @@ impl<const D: usize> Pushes<D> {
                     for other in block.sources() {
                         if let Some(push) = push(&slots[slot], &slots[other], spacing) {
                             sum = point::add(sum, push);
+                        }
+                        for image in window.iter().flat_map(|w| mirrored(&slots[other], w)) {
+                            if let Some(push) = push(&slots[slot], &image, spacing) {
+                                sum = point::add(sum, push);
+                            }
                         }
                     }
                 }
@@ -202,6 +215,22 @@ impl<const D: usize> Pushes<D> {
         }
         &self.by_point
     }
+}
+
+/// The mirror images of a spot across the open sides of a box.
+fn mirrored<const D: usize>(
+    (place, normal, local): &Spot<D>,
+    window: &Domain<D>,
+) -> impl Iterator<Item = Spot<D>> {
+    let open = (0..D).filter(|&k| !window.periodic[k]);
+    open.flat_map(move |k| {
+        [window.bounds.min[k], window.bounds.max[k]].map(|side| {
+            let (mut place, mut normal) = (*place, *normal);
+            place[k] = 2.0 * side - place[k];
+            normal[k] = -normal[k];
+            (place, normal, *local)
+        })
+    })
 }
 
 /// The push of one spot on another along the surface: (1 − r/R)³ / r, r in gaps that are wanted here, times the mean

@@ -1,6 +1,7 @@
 //! Points spread over a surface in space: corners, sharp edges, then everything between.
 
 use rayon::prelude::*;
+use sphpack_neighbors::Domain;
 
 use super::candidates::Candidates;
 use super::local::Local;
@@ -60,7 +61,9 @@ pub(crate) fn settle<const D: usize, S: Surface<D> + ?Sized>(
 ) -> Vec<Closest<D>> {
     let mut sites = held;
     let held = sites.len();
-    let kept = thinning::keep_evenest(candidates, &sites, count - held, locals);
+    let window = surface.window();
+    let window = window.as_ref();
+    let kept = thinning::keep_evenest(candidates, &sites, count - held, locals, window);
     let start: Vec<Closest<D>> = kept
         .par_iter()
         .with_min_len(64)
@@ -69,7 +72,7 @@ pub(crate) fn settle<const D: usize, S: Surface<D> + ?Sized>(
     sites.extend(start);
     let of_kept = kept.iter().map(|&i| locals[held + i]);
     let locals: Vec<Local> = locals[..held].iter().copied().chain(of_kept).collect();
-    relax::even_out(&mut sites, held, (&locals, spacing), near);
+    relax::even_out(&mut sites, held, (&locals, spacing), near, window);
     sites[held..]
         .par_iter_mut()
         .with_min_len(64)
@@ -78,8 +81,31 @@ pub(crate) fn settle<const D: usize, S: Surface<D> + ?Sized>(
             *site = Closest {
                 distance: 0.0,
                 feature: Feature::Smooth,
-                ..surface.closest(site.point)
+                ..put(surface, site.point, window)
             };
         });
     sites
+}
+
+/// How often a point beside a side that the surface passes aslant is put onto the surface and back into the box.
+const TRIES: usize = 20;
+
+/// The point of the surface nearest to `p`, within the box beyond which it goes on.
+fn put<const D: usize, S: Surface<D> + ?Sized>(
+    surface: &S,
+    p: [f64; D],
+    window: Option<&Domain<D>>,
+) -> Closest<D> {
+    let Some(window) = window else {
+        return surface.closest(p);
+    };
+    let mut hit = surface.closest(window.wrap(p));
+    for _ in 0..TRIES {
+        let kept = window.clamp(hit.point);
+        if kept == hit.point {
+            break;
+        }
+        hit = surface.closest(kept);
+    }
+    hit
 }

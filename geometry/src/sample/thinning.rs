@@ -20,12 +20,14 @@ const SAME_SIDE: f64 = 0.0;
 
 /// The places of `keep` candidates that are spread as evenly as is wanted of them, between themselves and the held
 /// sites (weighted sample elimination: Yuksel, "Sample elimination for generating Poisson disk sample sets", Computer
-/// Graphics Forum 34, 2015). `locals` is of the held sites and then of the candidates. O(n log n).
+/// Graphics Forum 34, 2015). `locals` is of the held sites and then of the candidates. Across the periodic sides of a
+/// `window` candidates crowd each other too. O(n log n).
 pub(crate) fn keep_evenest<const D: usize>(
     candidates: &Candidates<D>,
     held: &[Closest<D>],
     keep: usize,
     locals: &[Local],
+    window: Option<&Domain<D>>,
 ) -> Vec<usize> {
     let count = candidates.point.len();
     let both = candidates.point.iter().zip(&candidates.normal);
@@ -35,10 +37,10 @@ pub(crate) fn keep_evenest<const D: usize>(
         .collect();
     let first = held.iter().zip(locals);
     spots.extend(first.map(|(site, &local)| (site.point, site.normal, local)));
-    let near = neighbors(&spots);
+    let near = neighbors(&spots, window);
     let weight = |i: usize, j: usize| {
         let reach = REACH * apart(&spots[i], &spots[j], SAME_SIDE).unwrap_or(0.0);
-        let gap = 1.0 - point::distance(spots[i].0, spots[j].0) / reach;
+        let gap = 1.0 - point::norm(difference(spots[i].0, spots[j].0, window)) / reach;
         gap.max(0.0).powi(8)
     };
     let mut crowding: Vec<f64> = (0..count)
@@ -78,21 +80,41 @@ fn level(crowding: f64) -> f64 {
     (LEVELS * crowding).round()
 }
 
+/// `a − b`, to the nearest image of `b` in a window.
+fn difference<const D: usize>(
+    a: [f64; D],
+    b: [f64; D],
+    window: Option<&Domain<D>>,
+) -> [f64; D] {
+    window.map_or_else(|| point::sub(a, b), |window| window.difference(a, b))
+}
+
+/// The box in which points have neighbours: periodic where the window is.
+pub(super) fn around<const D: usize>(points: &[[f64; D]], window: Option<&Domain<D>>) -> Domain<D> {
+    let mut bounds = Bounds::of(points);
+    let periodic = window.map_or([false; D], |window| window.periodic);
+    if let Some(window) = window {
+        for k in (0..D).filter(|&k| periodic[k]) {
+            (bounds.min[k], bounds.max[k]) = (window.bounds.min[k], window.bounds.max[k]);
+        }
+    }
+    Domain { bounds, periodic }
+}
+
 /// For each spot those that it crowds.
-fn neighbors<const D: usize>(spots: &[Spot<D>]) -> Vec<Vec<u32>> {
+fn neighbors<const D: usize>(spots: &[Spot<D>], window: Option<&Domain<D>>) -> Vec<Vec<u32>> {
     let points: Vec<[f64; D]> = spots.iter().map(|spot| spot.0).collect();
-    let bounds = Bounds::of(&points);
     let reach = REACH * greatest(spots.iter().map(|spot| spot.2));
-    let mut list = CellList::new(&Domain::new(bounds.min, bounds.max), reach);
+    let mut list = CellList::new(&around(&points, window), reach);
     list.update(&points, |_| true);
-    let particle = list.target_particles();
+    let particle: Vec<u32> = list.sources().map(|(i, _)| i as u32).collect();
     let mut by_slot: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
     list.for_each_block(&mut by_slot, |block, out| {
         for (lane, found) in out.iter_mut().enumerate() {
             let i = particle[block.first_slot + lane] as usize;
             let crowded = |j: u32| {
                 let j = j as usize;
-                let squared = point::distance_squared(points[i], points[j]);
+                let squared = point::norm_squared(difference(points[i], points[j], window));
                 j != i
                     && squared < reach * reach
                     && apart(&spots[i], &spots[j], SAME_SIDE)
@@ -100,6 +122,11 @@ fn neighbors<const D: usize>(spots: &[Spot<D>]) -> Vec<Vec<u32>> {
             };
             let others = block.sources().map(|slot| particle[slot]);
             found.extend(others.filter(|&j| crowded(j)));
+            if window.is_some() {
+                // In a narrow box an image too.
+                found.sort_unstable();
+                found.dedup();
+            }
         }
     });
     let mut near = vec![Vec::new(); points.len()];

@@ -171,6 +171,7 @@ impl<const D: usize, F: Fn([f64; D]) -> Closest<D>> Grid<'_, D, F> {
                 rings.push(Ring {
                     corner: vec![false; points.len()],
                     points,
+                    is_open: false,
                 });
             }
         }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sphpack_neighbors::{Bounds, point};
 
 use super::perpendicular;
-use crate::GeometryError;
+use crate::{GeometryError, Mesh};
 use crate::surface::{Closest, Feature, Features, Surface};
 
 /// Sides of the polyline that stands for each rim in [`Surface::features`].
@@ -42,6 +42,31 @@ impl Cylinder {
             length,
             radius,
         })
+    }
+
+    /// A prism of the same volume whose sides are nowhere farther from the cylinder than about `within` (scene units), of 24 to 720
+    /// sides.
+    ///
+    /// # Errors
+    /// [`GeometryError::BadParameter`] unless `within` is positive, or what [`Mesh::new`] finds where numbers overflow.
+    pub fn mesh(&self, within: f64) -> Result<Mesh, GeometryError> {
+        GeometryError::check_positive("cylinder", "within", within)?;
+        let sides = (PI / (2.0 * within / self.radius).sqrt()).clamp(24.0, 720.0);
+        let sides = 4 * (sides / 4.0).ceil() as u32;
+        let step = TAU / f64::from(sides);
+        let radius = self.radius * (step / step.sin()).sqrt();
+        let across = perpendicular(self.axis);
+        let other = point::cross(self.axis, across);
+        let mut vertices = vec![self.start, self.end()];
+        let mut triangles = Vec::new();
+        for k in 0..sides {
+            let (sin, cos) = (step * f64::from(k)).sin_cos();
+            let out = point::add_scaled(point::scale(across, radius * cos), radius * sin, other);
+            vertices.extend([self.start, self.end()].map(|middle| point::add(middle, out)));
+            let [a, b] = [k, (k + 1) % sides].map(|k| 2 + 2 * k);
+            triangles.extend([[0, b, a], [1, a + 1, b + 1], [a, b, b + 1], [a, b + 1, a + 1]]);
+        }
+        Mesh::new(vertices, triangles)
     }
 
     fn end(&self) -> [f64; 3] {

@@ -1,6 +1,6 @@
 //! Points midway between the sides of what is too thin for a particle surface.
 
-use sphpack_neighbors::{KdTree, point};
+use sphpack_neighbors::{Domain, KdTree, point};
 
 use super::shares::{CLEAR, Counts, Middle, Part, Shares, tree};
 use crate::GeometryError;
@@ -45,7 +45,8 @@ pub(super) fn along<const D: usize>(
         let places = &part.places;
         let neighbors = near_part(places, &around, 2.0 * shares.spacing);
         let fixed: Vec<[f64; D]> = neighbors.into_iter().map(|i| fixed[i]).collect();
-        let mut sites = start(places, &fixed, count, shares.spacing);
+        let window = body.window();
+        let mut sites = start(places, &fixed, (count, shares.spacing), window.as_ref());
         let free = vec![true; sites.len()];
         sites.extend(&fixed);
         let mut set = Set {
@@ -87,8 +88,8 @@ fn near_part<const D: usize>(places: &[Middle<D>], tree: &KdTree<D>, reach: f64)
 fn start<const D: usize>(
     places: &[Middle<D>],
     fixed: &[[f64; D]],
-    count: usize,
-    spacing: f64,
+    (count, spacing): (usize, f64),
+    window: Option<&Domain<D>>,
 ) -> Vec<[f64; D]> {
     // All on one side.
     let hit = |point: [f64; D]| Closest {
@@ -109,7 +110,7 @@ fn start<const D: usize>(
         let density = (place.thickness / spacing).max(0.05);
         Local::even(WIDE * spacing * density.powf(-root))
     }));
-    let kept = keep_evenest(&Candidates::of(&hits), &held, count, &locals);
+    let kept = keep_evenest(&Candidates::of(&hits), &held, count, &locals, window);
     kept.into_iter().map(|i| places[i].point).collect()
 }
 
@@ -214,6 +215,10 @@ impl<const D: usize> Set<'_, D> {
             };
             let on = point::scale(point::sub(place, self.sites[i]), 1.0 / far);
             let tip = self.end_of(place, on);
+            // No end where the body goes on beyond the box.
+            if (self.body.window()).is_some_and(|window| !window.bounds.contains(tip)) {
+                continue;
+            }
             let moved = self.kept_clear(point::add_scaled(tip, -spacing, on));
             let near = |(j, other): (usize, &[f64; D])| {
                 j != i && point::distance(*other, moved) < ROOM_AT_TIPS * spacing

@@ -31,9 +31,19 @@ impl<const D: usize> Walls<D> {
         let open: [bool; D] = self.domain.periodic.map(|periodic| !periodic);
         for &i in mobile {
             let p = &mut particles.position[i as usize];
-            let is_out =
-                (0..D).any(|k| open[k] && !(bounds.min[k]..=bounds.max[k]).contains(&p[k]));
-            if !is_out || particles.kind[i as usize] != Kind::Free {
+            let is_off = (0..D).any(|k| open[k] && (p[k] <= bounds.min[k] || p[k] >= bounds.max[k]));
+            if !is_off {
+                continue;
+            }
+            if particles.kind[i as usize] == Kind::Boundary {
+                // Its surface goes on beyond the side, but not it.
+                for k in (0..D).filter(|&k| open[k]) {
+                    if p[k] <= bounds.min[k] {
+                        self.held.push((i, k, 1.0));
+                    } else if p[k] >= bounds.max[k] {
+                        self.held.push((i, k, -1.0));
+                    }
+                }
                 continue;
             }
             for k in (0..D).filter(|&k| open[k]) {

@@ -1,0 +1,110 @@
+//! Bodies that pass the sides of the box, or have faces on them.
+
+use std::sync::Arc;
+
+use sphpack_geometry::{Continued, Outline, Surface};
+use sphpack_neighbors::{Bounds, Domain};
+
+use crate::Error;
+use crate::dimension::{Built, Dimension, Space};
+use crate::precedence::Cuttable;
+use crate::scene::{Method, Role, Scene};
+
+/// How far beyond a side a body must reach to be told that it is cut there, in ∆s.
+const TOLD_OVER_SPACING: f64 = 1e-3;
+
+/// Solid bodies go on beyond the sides of the box that they pass, or lie on: there they have no surface. Gives a sentence for each
+/// that is cut. The published methods have no such bodies.
+pub(crate) fn go_on<const D: usize>(
+    scene: &Scene,
+    all: &mut [Built<D>],
+    domain: &Domain<D>,
+) -> Result<Vec<String>, Error>
+where
+    Space<D>: Dimension<D>,
+{
+    let mut told = Vec::new();
+    if scene.packing.method != Method::Balanced {
+        return Ok(told);
+    }
+    for (body, built) in scene.body.iter().zip(all) {
+        let bounds = built.surface.bounds();
+        if body.role != Role::Solid || !Continued::may_go_on(&bounds, domain) {
+            continue;
+        }
+        let continued = Space::<D>::continued(body, built, domain, scene.spacing);
+        let Some(continued) = continued.map_err(|source| Error::Body {
+            path: scene.path.clone(),
+            body: body.name.clone(),
+            source,
+        })?
+        else {
+            continue;
+        };
+        let (volume, whole) = (continued.volume(), built.surface.volume());
+        if volume <= 0.0 {
+            return Err(Error::Scene {
+                path: scene.path.clone(),
+                at: None,
+                message: format!(
+                    "body \"{}\" lies outside the domain (body from {:?} to {:?}); enlarge the domain, move the body, or leave it out",
+                    body.name, bounds.min, bounds.max
+                ),
+            });
+        }
+        let sides = passed(&bounds, domain, TOLD_OVER_SPACING * scene.spacing);
+        if !sides.is_empty() {
+            told.push(format!(
+                "body \"{}\" reaches beyond the {} of the domain and is cut there: {volume:.4e} of its {whole:.4e} is inside",
+                body.name,
+                sides.join(" and ")
+            ));
+            if D == 2 {
+                built.loops = drawn(std::mem::take(&mut built.loops), &bounds, domain);
+            }
+        }
+        built.surface = Arc::new(continued);
+    }
+    Ok(told)
+}
+
+/// What of an outline is drawn: the part between the open sides.
+fn drawn<const D: usize>(
+    loops: Vec<Vec<[f64; 2]>>,
+    around: &Bounds<D>,
+    domain: &Domain<D>,
+) -> Vec<Vec<[f64; 2]>> {
+    let side = |k: usize, of: [[f64; D]; 2]| of[usize::from(domain.periodic[k])][k];
+    let (low, high) = (
+        [domain.bounds.min, around.min],
+        [domain.bounds.max, around.max],
+    );
+    let [a, b, c, d] = [side(0, low), side(1, low), side(0, high), side(1, high)];
+    let part = Outline::new(loops.clone())
+        .and_then(|all| Ok(all.intersection(&Outline::polygon(&[[a, b], [c, b], [c, d], [a, d]])?)));
+    match part {
+        Ok(Some(part)) => part.loops().map(<[_]>::to_vec).collect(),
+        _ => loops,
+    }
+}
+
+/// The open sides that a body passes by more than `slack`, in words.
+fn passed<const D: usize>(
+    bounds: &Bounds<D>,
+    domain: &Domain<D>,
+    slack: f64,
+) -> Vec<String> {
+    let mut sides = Vec::new();
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(D) {
+        if domain.periodic[axis] {
+            continue;
+        }
+        if bounds.min[axis] < domain.bounds.min[axis] - slack {
+            sides.push(format!("lower {name} side"));
+        }
+        if bounds.max[axis] > domain.bounds.max[axis] + slack {
+            sides.push(format!("upper {name} side"));
+        }
+    }
+    sides
+}
