@@ -181,6 +181,10 @@ impl Audit {
         for omitted in &solution.packed.omitted {
             rooms[omitted.body] -= omitted.volume;
         }
+        // What a scene asks for is asked for.
+        for (room, excess) in rooms.iter_mut().zip(&solution.packed.excess) {
+            *room += excess;
+        }
         let solid = |b: usize| {
             scene
                 .body

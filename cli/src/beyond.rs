@@ -24,13 +24,26 @@ where
     Space<D>: Dimension<D>,
 {
     let mut told = Vec::new();
-    if scene.packing.method != Method::Balanced {
-        return Ok(told);
-    }
+    let fail = |message: String| Error::Scene {
+        path: scene.path.clone(),
+        at: None,
+        message,
+    };
     for (body, built) in scene.body.iter().zip(all) {
         let bounds = built.surface.bounds();
         if body.role != Role::Solid || !Continued::may_go_on(&bounds, domain) {
             continue;
+        }
+        let sides = passed(&bounds, domain, TOLD_OVER_SPACING * scene.spacing);
+        if scene.packing.method != Method::Balanced {
+            if sides.is_empty() {
+                continue;
+            }
+            return Err(fail(format!(
+                "body \"{}\" reaches outside the domain, beyond the {}; enlarge the domain, use margin = … instead of min and max, or method = \"balanced\", which cuts bodies at its sides",
+                body.name,
+                sides.join(" and ")
+            )));
         }
         let continued = Space::<D>::continued(body, built, domain, scene.spacing);
         let Some(continued) = continued.map_err(|source| Error::Body {
@@ -43,16 +56,11 @@ where
         };
         let (volume, whole) = (continued.volume(), built.surface.volume());
         if volume <= 0.0 {
-            return Err(Error::Scene {
-                path: scene.path.clone(),
-                at: None,
-                message: format!(
-                    "body \"{}\" lies outside the domain (body from {:?} to {:?}); enlarge the domain, move the body, or leave it out",
-                    body.name, bounds.min, bounds.max
-                ),
-            });
+            return Err(fail(format!(
+                "body \"{}\" lies outside the domain (body from {:?} to {:?}); enlarge the domain, move the body, or leave it out",
+                body.name, bounds.min, bounds.max
+            )));
         }
-        let sides = passed(&bounds, domain, TOLD_OVER_SPACING * scene.spacing);
         if !sides.is_empty() {
             told.push(format!(
                 "body \"{}\" reaches beyond the {} of the domain and is cut there: {volume:.4e} of its {whole:.4e} is inside",

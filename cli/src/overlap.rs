@@ -117,7 +117,7 @@ fn deepest<const D: usize>(
 mod tests {
     use std::sync::Arc;
 
-    use sphpack_geometry::{Ball, Cuboid};
+    use sphpack_geometry::{Ball, Cuboid, Thin};
 
     use super::*;
 
@@ -126,6 +126,7 @@ mod tests {
             name: String::new(),
             surface: Arc::new(surface),
             inset_over_spacing: 0.5,
+            thin: Thin::Mass,
         }
     }
 

@@ -244,6 +244,7 @@ where
             name: body.name.clone(),
             surface: built.surface,
             inset_over_spacing: body.surface.0,
+            thin: body.thin.into(),
         });
     }
     if let Some(Surroundings { min, max }) = &scene.output.surroundings {

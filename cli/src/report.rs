@@ -229,6 +229,8 @@ pub struct SecondsReport {
     pub forces: f64,
     /// Keeping particles on surfaces.
     pub projection: f64,
+    /// What else settling takes: the minimiser's own arithmetic, or moving and capturing.
+    pub minimiser: f64,
     /// Telling particles apart, their figures, the audit.
     pub measuring: f64,
     /// Writing files, this one not included.

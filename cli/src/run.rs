@@ -265,6 +265,16 @@ fn too_small<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Vec<Strin
             volume / site
         ));
     }
+    for (number, excess) in solution.packed.excess.iter().enumerate() {
+        if *excess > 0.0 {
+            let volume = problem.bodies[number].surface.volume();
+            warnings.push(format!(
+                "body \"{}\" weighs {:.3} times its mass: its thin parts are watertight, and {excess:.3e} of volume is taken from what is around it",
+                scene.body[number].name,
+                (volume + excess) / volume
+            ));
+        }
+    }
     for (number, body) in problem.bodies.iter().enumerate() {
         let is_named = omitted.iter().any(|omitted| omitted.body == number);
         if is_solid(number) && !has_some[number] && !is_named {
@@ -343,6 +353,7 @@ fn report<const D: usize>(
             neighbors: seconds.neighbors,
             forces: seconds.forces,
             projection: seconds.projection,
+            minimiser: seconds.minimiser,
             measuring: 0.0,
             output: 0.0,
         },

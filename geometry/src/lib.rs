@@ -65,7 +65,7 @@ mod thin;
 mod winding;
 
 pub use bvh::Bvh;
-pub use continued::Continued;
+pub use continued::{Continued, within_window};
 pub use error::GeometryError;
 pub use level_inset::LevelInset;
 pub use level_set::LevelSet;
@@ -90,5 +90,5 @@ pub use soup::{
 };
 pub use surface::{Closest, Feature, Features, Surface};
 pub use thickness::thickness;
-pub use thin::{SurfaceSamples, sample_particles};
+pub use thin::{SurfaceSamples, Thin, sample_particles, sample_thin};
 pub use winding::FastWinding;

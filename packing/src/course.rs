@@ -238,6 +238,17 @@ impl<'a> Course<'a> {
         }
         self.count(forces);
         self.seconds.total = self.seconds_so_far();
+        let Seconds {
+            geometry,
+            seeding,
+            neighbors,
+            forces,
+            projection,
+            minimiser: _,
+            total,
+        } = self.seconds;
+        let booked = geometry + seeding + neighbors + forces + projection;
+        self.seconds.minimiser = (total - booked).max(0.0);
         Packed {
             particles,
             domain: problem.domain,
@@ -254,6 +265,7 @@ impl<'a> Course<'a> {
             surfaces,
             knows_sides: false,
             omitted: Vec::new(),
+            excess: Vec::new(),
             stop_reason: if self.interrupted {
                 StopReason::Interrupted
             } else {
@@ -281,6 +293,7 @@ values!(Seconds {
     neighbors: f64,
     forces: f64,
     projection: f64,
+    minimiser: f64,
     total: f64,
 });
 

@@ -3,15 +3,12 @@
 use std::io::{self, Write};
 
 use rayon::prelude::*;
-use sphpack_geometry::Closest;
+use sphpack_geometry::{Closest, within_window};
 use sphpack_neighbors::point;
 
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::state::{Damaged, State, load_as_many};
-
-/// How often a particle beside a side that its surface passes aslant is put onto the surface and back into the box.
-const TRIES_AT_SIDES: usize = 8;
 
 /// The boundary particles and the outward normals where they sit.
 #[derive(Debug, Clone, Default)]
@@ -44,19 +41,12 @@ impl<const D: usize> OnSurface<D> {
     ) {
         self.project_by(particles, |p, body| {
             let surface = surfaces.get(usize::from(body))?.surface.as_ref();
-            let mut hit = surface.closest_within(p, reach)?;
+            let hit = surface.closest_within(p, reach)?;
             // Where the body goes on beyond the box its particles do not.
-            let Some(window) = surface.window() else {
-                return Some(hit);
-            };
-            for _ in 0..TRIES_AT_SIDES {
-                let kept = window.clamp(hit.point);
-                if kept == hit.point {
-                    break;
-                }
-                hit = surface.closest_within(kept, reach)?;
-            }
-            Some(hit)
+            Some(match surface.window() {
+                Some(window) => within_window(surface, &window, hit),
+                None => hit,
+            })
         });
     }
 

@@ -46,8 +46,10 @@ pub struct Seconds {
     pub neighbors: f64,
     /// Density and forces.
     pub forces: f64,
-    /// Keeping boundary particles on their surface.
+    /// Keeping boundary particles on their surface, and the others on their side of it.
     pub projection: f64,
+    /// What else settling takes: the minimiser's own vectors, or moving and capturing.
+    pub minimiser: f64,
     /// The whole packing.
     pub total: f64,
 }
@@ -97,6 +99,9 @@ pub struct Packed<const D: usize> {
     pub knows_sides: bool,
     /// Parts that were too small for a particle, by methods that pack parts.
     pub omitted: Vec<Omitted<D>>,
+    /// The volume that each body's particles have beyond its own ([`Thin::Watertight`](sphpack_geometry::Thin)), by methods that know
+    /// thin parts; what is around it has so much less.
+    pub excess: Vec<f64>,
     /// Why it stopped.
     pub stop_reason: StopReason,
     /// Iterations of the method.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sphpack_geometry::{GeometryError, Repeated, Surface};
+use sphpack_geometry::{GeometryError, Repeated, Surface, Thin};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
@@ -23,6 +23,8 @@ pub struct Body<const D: usize> {
     /// How far inside the true surface the boundary particles sit, in ∆s: ½ puts the true surface between the last
     /// solid and the first fluid particle, 0 puts particles on it.
     pub inset_over_spacing: f64,
+    /// How many particles parts get that are thinner than one; the balanced method asks for it.
+    pub thin: Thin,
 }
 
 impl<const D: usize> Body<D> {
@@ -213,6 +215,7 @@ impl<const D: usize> Problem<D> {
             name: name.to_owned(),
             surface: Arc::new(surface),
             inset_over_spacing: DEFAULT_INSET_OVER_SPACING,
+            thin: Thin::Mass,
         })
     }
 

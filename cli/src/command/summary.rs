@@ -47,7 +47,10 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
             report.residual.max
         ),
         Some(duration(
-            report.seconds.neighbors + report.seconds.forces + report.seconds.projection,
+            report.seconds.neighbors
+                + report.seconds.forces
+                + report.seconds.projection
+                + report.seconds.minimiser,
         )),
     );
     let on_surface: usize = report.surface.iter().map(|surface| surface.count).sum();

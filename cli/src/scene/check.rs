@@ -4,7 +4,7 @@ use sphpack_packing::Kind;
 
 use super::check_body::check_body;
 use super::nearest::advice;
-use super::{Finish, Method, Role, Scene, Surroundings};
+use super::{Finish, Method, Role, Scene, Surroundings, Thin};
 
 /// A step on the way to a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +87,17 @@ impl Scene {
         }
         for (index, body) in self.body.iter().enumerate() {
             check_body(body, index)?;
+            if body.thin == Thin::Watertight
+                && (self.packing.method != Method::Balanced || body.role != Role::Solid)
+            {
+                return fault(
+                    &[Key::Name("body"), Key::Index(index), Key::Name("thin")],
+                    format!(
+                        "body \"{}\": thin = \"watertight\" is for solid bodies and the method \"balanced\"; leave it out",
+                        body.name
+                    ),
+                );
+            }
             if let Some(twin) = self.body[..index].iter().position(|b| b.name == body.name) {
                 return fault(
                     &[Key::Name("body"), Key::Index(index), Key::Name("name")],

@@ -123,6 +123,29 @@ pub struct BodySpec {
     /// Where its boundary particles sit.
     #[serde(default)]
     pub surface: Inset,
+    /// How many particles parts get that are thinner than ∆s.
+    #[serde(default)]
+    pub thin: Thin,
+}
+
+/// How many particles parts of a body get that are thinner than ∆s.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Thin {
+    /// As many as their mass asks for.
+    #[default]
+    Mass,
+    /// One per ∆s^(D−1), whatever they weigh, so that no fluid passes between them.
+    Watertight,
+}
+
+impl From<Thin> for sphpack_geometry::Thin {
+    fn from(thin: Thin) -> Self {
+        match thin {
+            Thin::Mass => Self::Mass,
+            Thin::Watertight => Self::Watertight,
+        }
+    }
 }
 
 /// A rotation in space.
@@ -411,6 +434,7 @@ impl Scene {
                 precedence: 0,
                 density: 1.0,
                 surface: Inset::default(),
+                thin: Thin::default(),
             }],
             name,
             fluid: FluidSpec::default(),

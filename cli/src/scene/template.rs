@@ -27,11 +27,13 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # rotate = { axis = [0.0, 0.0, 1.0], degrees = 0.0 }   # 3-D
 # translate = [0.0, 0.0]
 # role = "solid"                 # solid | container (its inside is the domain: a tank) | void (no particles inside)
-# precedence = 0                 # where solid bodies overlap, the one with the higher number keeps the room, the other
-                                 # is what is left of it
+# precedence = 0                 # where bodies overlap, the one with the higher number (a solid, or a void that cuts)
+                                 # keeps the room, the other is what is left of it
 # density = 1.0                  # mass of a particle = density x volume
 # surface = "inset"              # boundary particles half a spacing inside ("inset"), on the surface ("exact"),
                                  # or a number: how far inside, in spacings
+# thin = "mass"                  # parts thinner than a spacing: as many particles as their mass asks for, or one per
+                                 # spacing^(D-1) whatever they weigh ("watertight")
 
 [fluid]                          # what is between the bodies
 # density = 1.0

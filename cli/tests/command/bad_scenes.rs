@@ -68,8 +68,8 @@ fn numbers_are_checked() {
     );
     refuse(
         "max = [2.0, 2.0]",
-        "max = [0.5, 2.0]",
-        &["reaches outside the domain", "enlarge the domain"],
+        "max = [-1.2, 2.0]",
+        &["lies outside the domain", "enlarge the domain"],
     );
     refuse("max = [2.0, 2.0]", "max = [1e300, 2.0]", &[""]);
     refuse("max = [2.0, 2.0]", "max = [1e308, 1e308]", &[""]);

@@ -16,6 +16,7 @@ mod limits;
 mod measuring;
 mod particle_files;
 mod precedence;
+mod sides;
 mod sound;
 mod surroundings;
 

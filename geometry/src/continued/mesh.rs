@@ -70,10 +70,10 @@ impl Mesh {
 }
 
 impl Net {
-    /// Whether a triangle is on a side of the box and looks out of it.
-    fn is_on(&self, t: &[u32; 3], axis: usize, side: f64, out: f64) -> bool {
+    /// Whether a triangle lies across an axis at such a level, to `slack`, and looks out of the box.
+    fn is_on(&self, t: &[u32; 3], axis: usize, level: f64, out: f64, slack: f64) -> bool {
         let corners = t.map(|v| self.vertices[v as usize]);
-        corners.iter().all(|c| c[axis] == side) && triangle::area_vector(&corners)[axis] * out > 0.0
+        corners.iter().all(|c| (c[axis] - level).abs() <= slack) && triangle::area_vector(&corners)[axis] * out > 0.0
     }
 
     /// Moves the faces on an open side out by the size of the box, with walls behind them; whether there are any.
@@ -83,8 +83,13 @@ impl Net {
         } else {
             (domain.bounds.min[axis], -1.0)
         };
+        // Those beyond it too: a face less than ∆s/2 beyond would have its particles in the box.
+        let slack = slack(domain);
         let on: Vec<usize> = (0..self.triangles.len())
-            .filter(|&t| self.is_on(&self.triangles[t], axis, side, out))
+            .filter(|&t| {
+                let level = self.vertices[self.triangles[t][0] as usize][axis];
+                (level - side) * out >= 0.0 && self.is_on(&self.triangles[t], axis, level, out, slack)
+            })
             .collect();
         if on.is_empty() {
             return false;
@@ -150,8 +155,8 @@ impl Net {
         if reach.passes == [false; 2] {
             // Faces between two images go, and the images' rims become one.
             let open = images(&|t, step| {
-                self.is_on(t, axis, max, 1.0) && step < count
-                    || self.is_on(t, axis, min, -1.0) && step > -count
+                self.is_on(t, axis, max, 1.0, 0.0) && step < count
+                    || self.is_on(t, axis, min, -1.0, 0.0) && step > -count
             });
             let volume = open.volume();
             let loose: Vec<[[f64; 3]; 3]> = (open.triangles.iter())

@@ -172,6 +172,39 @@ impl<const D: usize> Surface<D> for Continued<D> {
     }
 }
 
+/// How often a point is moved along a surface into a box.
+const TRIES: usize = 20;
+
+/// The surface's point nearest to `hit` within the open sides of a box beyond which it goes on, or nearly: Newton's method along the
+/// surface, one step where it is flat. `hit` itself where it is within, or the surface runs along the side.
+pub fn within_window<const D: usize, S: Surface<D> + ?Sized>(
+    surface: &S,
+    window: &Domain<D>,
+    hit: Closest<D>,
+) -> Closest<D> {
+    let mut found = hit;
+    for _ in 0..TRIES {
+        let kept = window.clamp(found.point);
+        let Some(axis) = (0..D).find(|&k| kept[k] != found.point[k]) else {
+            break;
+        };
+        let across = std::array::from_fn(|k| f64::from(u8::from(k == axis)));
+        let along = point::reject(across, found.normal);
+        let slope = point::norm_squared(along);
+        if slope < 1e-6 {
+            break;
+        }
+        let step = (kept[axis] - found.point[axis]) / slope;
+        let mut next = point::add_scaled(found.point, step, along);
+        next[axis] = kept[axis];
+        let there = surface.closest(next);
+        // Rounding must not send it out again for ever.
+        let near = point::distance(there.point, next) <= 1e-9 * window.bounds.diagonal();
+        found = if near { Closest { point: next, ..there } } else { there };
+    }
+    found
+}
+
 /// How a body lies to the two sides of an axis.
 #[derive(Debug, Clone, Copy)]
 struct Reach {

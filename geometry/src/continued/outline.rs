@@ -63,10 +63,11 @@ impl Outline {
     }
 }
 
-/// Rectangles that carry on the faces on the sides of an open axis, as far as the box is large.
+/// Rectangles that carry on the faces on the sides of an open axis, or beyond them, as far as the box is large: a face less than
+/// ∆s/2 beyond a side would have its particles in the box.
 fn beyond(loops: &[Loop], domain: &Domain<2>, axis: usize) -> Vec<Loop> {
     let Bounds { min, max } = domain.bounds;
-    let (other, far) = (1 - axis, domain.bounds.diagonal());
+    let (other, far, slack) = (1 - axis, domain.bounds.diagonal(), slack(domain));
     let mut more = Vec::new();
     for points in loops {
         for (i, a) in points.iter().enumerate() {
@@ -74,12 +75,18 @@ fn beyond(loops: &[Loop], domain: &Domain<2>, axis: usize) -> Vec<Loop> {
             for (side, out) in [(min[axis], -1.0), (max[axis], 1.0)] {
                 // The body is on the left of its sides: only faces that look out of the box.
                 let normal = if axis == 0 { b[1] - a[1] } else { a[0] - b[0] };
-                if a[axis] != side || b[axis] != side || normal * out <= 0.0 {
+                let is_level = (a[axis] - b[axis]).abs() <= slack;
+                if !is_level || (a[axis] - side) * out < 0.0 || normal * out <= 0.0 {
                     continue;
                 }
+                let level = if out > 0.0 {
+                    a[axis].min(b[axis])
+                } else {
+                    a[axis].max(b[axis])
+                };
                 let place = |along: f64, away: f64| {
                     let mut p = [0.0; 2];
-                    (p[other], p[axis]) = (along, side + away * out);
+                    (p[other], p[axis]) = (along, level + away * out);
                     p
                 };
                 let [low, high] = [a[other].min(b[other]), a[other].max(b[other])];

@@ -7,6 +7,7 @@ use super::candidates::Candidates;
 use super::local::Local;
 use super::{features, relax, thinning};
 use crate::GeometryError;
+use crate::continued::within_window;
 use crate::surface::{Closest, Feature, Surface};
 
 /// Candidates per point.
@@ -87,25 +88,14 @@ pub(crate) fn settle<const D: usize, S: Surface<D> + ?Sized>(
     sites
 }
 
-/// How often a point beside a side that the surface passes aslant is put onto the surface and back into the box.
-const TRIES: usize = 20;
-
 /// The point of the surface nearest to `p`, within the box beyond which it goes on.
 fn put<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     p: [f64; D],
     window: Option<&Domain<D>>,
 ) -> Closest<D> {
-    let Some(window) = window else {
-        return surface.closest(p);
-    };
-    let mut hit = surface.closest(window.wrap(p));
-    for _ in 0..TRIES {
-        let kept = window.clamp(hit.point);
-        if kept == hit.point {
-            break;
-        }
-        hit = surface.closest(kept);
+    match window {
+        Some(window) => within_window(surface, window, surface.closest(window.wrap(p))),
+        None => surface.closest(p),
     }
-    hit
 }

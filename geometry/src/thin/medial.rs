@@ -11,6 +11,11 @@ use crate::thickness::Touching;
 /// Times that points move to the middle of what they stand for.
 const ROUNDS: usize = 40;
 
+/// The same where the body goes on beyond a box: no tips hold what is uneven over many points, which evens out slowly. There a
+/// point goes on by this part of its last move.
+const ROUNDS_WITHOUT_ENDS: usize = 120;
+const MOMENTUM: f64 = 0.8;
+
 /// A point ends a part where the next other one is this much farther from the part's end.
 const END: f64 = 1.25;
 
@@ -145,7 +150,16 @@ impl<const D: usize> Set<'_, D> {
     /// Moves free points to the weighted middle of the places nearest to them.
     fn settle(&mut self) -> Result<(), GeometryError> {
         let power = 2.0 / (D as f64 - 1.0);
-        for _ in 0..ROUNDS {
+        let is_endless = self.body.window().is_some();
+        let rounds = if is_endless { ROUNDS_WITHOUT_ENDS } else { ROUNDS };
+        let mut moves = vec![[0.0; D]; self.free.len()];
+        for round in 0..rounds {
+            // The last ones come to rest.
+            let part = if is_endless && round + ROUNDS / 2 < rounds {
+                MOMENTUM
+            } else {
+                0.0
+            };
             let tree = tree(&self.sites)?;
             let mut sums = vec![([0.0; D], 0.0); self.sites.len()];
             for place in self.part.places.iter().chain(&self.part.beside) {
@@ -159,7 +173,9 @@ impl<const D: usize> Set<'_, D> {
             }
             for (i, (sum, weight)) in sums.into_iter().enumerate().take(self.free.len()) {
                 if self.free[i] && weight > 0.0 {
-                    let middle = point::add_scaled(self.sites[i], 1.0 / weight, sum);
+                    let again = point::scale(moves[i], part);
+                    moves[i] = point::add_scaled(again, 1.0 / weight, sum);
+                    let middle = point::add(self.sites[i], moves[i]);
                     self.sites[i] = self.kept_clear(middle);
                 }
             }

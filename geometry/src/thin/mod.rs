@@ -26,6 +26,16 @@ const THIN: f64 = 0.99;
 const FEW_POINTS: f64 = 2.0;
 const SMALL_PART: f64 = 0.02;
 
+/// How many points parts get that are thinner than a particle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Thin {
+    /// As many as their volume asks for.
+    #[default]
+    Mass,
+    /// As many as a sheet one spacing thick, so that nothing passes between them; they stand for more than the volume there.
+    Watertight,
+}
+
 /// What [`sample_particles`] gives.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SurfaceSamples<const D: usize> {
@@ -37,6 +47,8 @@ pub struct SurfaceSamples<const D: usize> {
     /// of their number times `spacing`^D, unless there is no room for so many clear of the particle surface, which
     /// then has the others.
     pub medial_volume: f64,
+    /// What of that is more than the body has there ([`Thin::Watertight`]).
+    pub excess: f64,
 }
 
 /// Points for the particles that hold a body's surface, which is `depth` (scene units) inside the body, for particles
@@ -84,6 +96,22 @@ pub fn sample_particles<const D: usize>(
     spacing: f64,
     depth: f64,
 ) -> Result<SurfaceSamples<D>, GeometryError> {
+    sample_thin(body, inset, spacing, depth, Thin::Mass)
+}
+
+/// [`sample_particles`] where thin parts get as many points as `thin` says. A part that is [`Thin::Watertight`] has one
+/// per `spacing`^(D−1) where it is thinner than the spacing; [`SurfaceSamples::excess`] says how much more than its own
+/// volume they stand for.
+///
+/// # Errors
+/// As [`sample_particles`].
+pub fn sample_thin<const D: usize>(
+    body: &dyn Surface<D>,
+    inset: Option<&dyn Surface<D>>,
+    spacing: f64,
+    depth: f64,
+    thin: Thin,
+) -> Result<SurfaceSamples<D>, GeometryError> {
     GeometryError::check_positive("sample", "spacing", spacing)?;
     GeometryError::check_depth(depth)?;
     if depth == 0.0 && inset.is_none() {
@@ -103,7 +131,7 @@ pub fn sample_particles<const D: usize>(
             return as_if_thick(surface, count);
         }
     }
-    let shares = Shares::new(body, inset, spacing, depth)?;
+    let shares = Shares::new(body, inset, (spacing, depth), thin)?;
     let counts = shares.counts();
     if let Some(surface) = inset {
         let count = surface.measure() / area_each;
@@ -122,6 +150,7 @@ pub fn sample_particles<const D: usize>(
         on_surface,
         medial,
         medial_volume: counts.medial_volume,
+        excess: counts.excess,
     })
 }
 

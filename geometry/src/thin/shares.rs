@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use sphpack_neighbors::{KdTree, point};
 
+use super::Thin;
 use crate::GeometryError;
 use crate::surface::{Closest, Surface};
 use crate::thickness::{Touching, through};
@@ -51,6 +52,8 @@ pub(super) struct Middle<const D: usize> {
     pub(super) thickness: f64,
     /// Volume that the place stands for.
     pub(super) volume: f64,
+    /// What of it is more than the body has there.
+    excess: f64,
     /// Distance from the particle surface.
     pub(super) clear: f64,
 }
@@ -63,6 +66,8 @@ pub(super) struct Part<const D: usize> {
     pub(super) beside: Vec<Middle<D>>,
     /// Volume of the places and of what lies beside them.
     volume: f64,
+    /// What of it is more than the body has there.
+    excess: f64,
 }
 
 /// A body's surface layer, shared out.
@@ -87,14 +92,16 @@ pub(super) struct Counts {
     pub(super) medial: Vec<usize>,
     /// Of the parts that get points.
     pub(super) medial_volume: f64,
+    /// What of it is more than the body has.
+    pub(super) excess: f64,
 }
 
 impl<const D: usize> Shares<D> {
     pub(super) fn new(
         body: &dyn Surface<D>,
         inset: Option<&dyn Surface<D>>,
-        spacing: f64,
-        depth: f64,
+        (spacing, depth): (f64, f64),
+        thin: Thin,
     ) -> Result<Self, GeometryError> {
         let count = PLACES * body.measure() / spacing.powi(D as i32 - 1);
         let feet = body.strew(count.clamp(FEWEST, MOST) as usize);
@@ -116,12 +123,19 @@ impl<const D: usize> Shares<D> {
         let (over, below): (Vec<_>, Vec<_>) = places.into_iter().partition(|(place, _)| {
             inset.is_some_and(|surface| place.has(surface, spacing, depth))
         });
+        // Half of what a sheet is taken to be thick at least.
+        let least = match thin {
+            Thin::Mass => 0.0,
+            Thin::Watertight => 0.5 * spacing,
+        };
         let below: Vec<(Middle<D>, bool)> = below
             .par_iter()
             .with_min_len(64)
-            .map(|(place, between)| (place.middle(inset, area), *between))
+            .map(|(place, between)| (place.middle(inset, area, least), *between))
             .collect();
-        let volume_below: f64 = below.iter().map(|(middle, _)| middle.volume).sum();
+        let volume_below: f64 = (below.iter())
+            .map(|(middle, _)| middle.volume - middle.excess)
+            .sum();
         let (middle, beside): (Vec<_>, Vec<_>) =
             below.into_iter().partition(|(_, between)| *between);
         let mut parts = parts(middle.into_iter().map(|(m, _)| m).collect(), LINK * spacing)?;
@@ -144,8 +158,10 @@ impl<const D: usize> Shares<D> {
             // What was found is the whole body.
             for part in &mut shares.parts {
                 part.volume *= body.volume() / volume_below;
+                part.excess *= body.volume() / volume_below;
             }
         }
+        shares.volume += shares.parts.iter().map(|part| part.excess).sum::<f64>();
         Ok(shares)
     }
 
@@ -199,11 +215,12 @@ impl<const D: usize> Shares<D> {
                 due.min((ROOM * room / each).round()) as usize
             })
             .collect();
-        let with_points = self.parts.iter().zip(&medial).filter(|(_, n)| **n > 0);
+        let with_points = || self.parts.iter().zip(&medial).filter(|(_, n)| **n > 0);
         let all = (self.volume / each).round() as usize;
         Counts {
             on_surface: all.saturating_sub(medial.iter().sum()),
-            medial_volume: with_points.fold(0.0, |sum, (part, _)| sum + part.volume),
+            medial_volume: with_points().fold(0.0, |sum, (part, _)| sum + part.volume),
+            excess: with_points().fold(0.0, |sum, (part, _)| sum + part.excess),
             medial,
         }
     }
@@ -219,12 +236,15 @@ impl<const D: usize> Place<D> {
     }
 
     /// The middle of the ball beneath, for a piece of the surface of this area.
-    fn middle(&self, inset: Option<&dyn Surface<D>>, area: f64) -> Middle<D> {
+    /// It is taken to be twice `least` thick at least.
+    fn middle(&self, inset: Option<&dyn Surface<D>>, area: f64, least: f64) -> Middle<D> {
         let center = point::add_scaled(self.foot.point, -self.radius, self.foot.normal);
+        let radius = self.radius.max(least);
         Middle {
             point: center,
-            thickness: 2.0 * self.radius,
-            volume: area * self.radius,
+            thickness: 2.0 * radius,
+            volume: area * radius,
+            excess: area * (radius - self.radius),
             clear: inset.map_or(f64::INFINITY, |surface| surface.closest(center).distance),
         }
     }
@@ -284,6 +304,7 @@ fn parts<const D: usize>(places: Vec<Middle<D>>, link: f64) -> Result<Vec<Part<D
         let places: Vec<Middle<D>> = members.into_iter().map(|i| places[i]).collect();
         parts.push(Part {
             volume: places.iter().map(|m| m.volume).sum(),
+            excess: places.iter().map(|m| m.excess).sum(),
             places,
             beside: Vec::new(),
         });
@@ -309,6 +330,7 @@ fn join<const D: usize>(
         {
             let (there, number) = places[near.index];
             parts[number].volume += middle.volume;
+            parts[number].excess += middle.excess;
             parts[number].beside.push(Middle {
                 thickness: there.thickness,
                 ..middle

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use sphpack_geometry::{
-    Closest, Feature, GeometryError, Surface, SurfaceSamples, sample_particles,
+    Closest, Feature, GeometryError, Surface, SurfaceSamples, sample_thin,
 };
 use sphpack_neighbors::point;
 
@@ -97,7 +97,7 @@ impl Balanced {
         let whole = problem;
         let parts = Parts::of(whole);
         let problem = &parts.problem;
-        let (mut surfaces, mut samples) = sample(problem)?;
+        let (mut surfaces, mut samples, excess) = sample(problem)?;
         let clashes = clashes::resolve(&mut samples, problem.spacing);
         for (surface, points) in surfaces.iter_mut().zip(&samples) {
             surface.target_count = points.len();
@@ -108,7 +108,7 @@ impl Balanced {
 
         course.enter(Phase::Seeding);
         let seeding = Instant::now();
-        let (seeds, omitted) = place(&parts, &surfaces, &samples, &clashes);
+        let (seeds, omitted) = place(&parts, &surfaces, (&samples, &excess), &clashes);
         let Seeds {
             mut particles,
             frozen_lattice,
@@ -169,6 +169,7 @@ impl Balanced {
             )
             .with_known_sides();
         packed.omitted = omitted;
+        packed.excess = excess;
         Ok(parts.gather(packed, whole, |body| inset(whole, body).ok().flatten()))
     }
 }
@@ -177,7 +178,7 @@ impl Balanced {
 fn place<const D: usize>(
     parts: &Parts<D>,
     surfaces: &[ParticleSurface<D>],
-    samples: &[Vec<Closest<D>>],
+    (samples, excess): (&[Vec<Closest<D>>], &[f64]),
     clashes: &[Clash],
 ) -> (Seeds<D>, Vec<Omitted<D>>) {
     let problem = &parts.problem;
@@ -192,7 +193,7 @@ fn place<const D: usize>(
         &sites,
     );
     let least = 0.5 * volume;
-    let (mut room, omitted) = rooms(parts, samples, least);
+    let (mut room, omitted) = rooms(parts, (samples, excess), least);
     let fluid = room.pop().unwrap_or(0.0);
     let pockets = Pockets::of(problem, &sites, &depths, fluid, least);
     room.extend(&pockets.volume);
@@ -202,6 +203,7 @@ fn place<const D: usize>(
             surface: surface.surface.as_ref(),
             points: samples[part].len(),
             removed: clashes[part].removed,
+            excess: excess[part],
             reaches: reaches(problem, &pockets, part, &samples[part]),
         })
         .collect();
@@ -247,10 +249,11 @@ fn place<const D: usize>(
 }
 
 /// The volume of every part without what lies in it, and of the fluid last; and the parts of less than `least` (half a
-/// particle) without a surface particle, whose volume whatever is around them has.
+/// particle) without a surface particle, whose volume whatever is around them has. What a part takes beyond its own volume is
+/// taken from what is around it.
 fn rooms<const D: usize>(
     parts: &Parts<D>,
-    samples: &[Vec<Closest<D>>],
+    (samples, excess): (&[Vec<Closest<D>>], &[f64]),
     least: f64,
 ) -> (Vec<f64>, Vec<Omitted<D>>) {
     let bodies = &parts.problem.bodies;
@@ -268,6 +271,8 @@ fn rooms<const D: usize>(
                 });
                 room[region] += std::mem::take(&mut room[part]);
             }
+            room[part] += excess[part];
+            room[region] -= excess[part];
         }
     }
     (room, omitted)
@@ -327,13 +332,14 @@ fn inset<const D: usize>(
     }
 }
 
-type Sampled<const D: usize> = (Vec<ParticleSurface<D>>, Vec<Vec<Closest<D>>>);
+type Sampled<const D: usize> = (Vec<ParticleSurface<D>>, Vec<Vec<Closest<D>>>, Vec<f64>);
 
-/// Every particle surface with its points. Points in the middle of parts that are too thin to have a surface count as
+/// Every particle surface with its points, and the volume that these stand for beyond the body's. Points in the middle of parts that are too thin to have a surface count as
 /// corners: they stay where they are.
 fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingError> {
     let mut surfaces = Vec::new();
     let mut samples = Vec::new();
+    let mut excess = Vec::new();
     for body in &problem.bodies {
         let fail = |source| PackingError::Surface {
             body: body.name.clone(),
@@ -349,15 +355,15 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
                     .sample(count.round().max(1.0) as usize)
                     .map(|on_surface| SurfaceSamples {
                         on_surface,
-                        medial: Vec::new(),
-                        medial_volume: 0.0,
+                        ..SurfaceSamples::default()
                     })
             }
-            _ => sample_particles(
+            _ => sample_thin(
                 body.surface.as_ref(),
                 inset.as_deref(),
                 problem.spacing,
                 depth,
+                body.thin,
             ),
         }
         .map_err(fail)?;
@@ -372,6 +378,7 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
             target_count: points.len(),
         });
         samples.push(points);
+        excess.push(found.excess);
     }
-    Ok((surfaces, samples))
+    Ok((surfaces, samples, excess))
 }

@@ -97,6 +97,11 @@ impl<const D: usize> Parts<D> {
         for Omitted { body, .. } in &mut packed.omitted {
             *body = usize::from(self.owner[*body]);
         }
+        let mut excess = vec![0.0; problem.bodies.len()];
+        for (part, more) in packed.excess.iter().enumerate() {
+            excess[usize::from(self.owner[part])] += more;
+        }
+        packed.excess = excess;
         let mut targets = vec![0; problem.bodies.len()];
         for (part, &owner) in packed.surfaces.iter().zip(&self.owner) {
             targets[usize::from(owner)] += part.target_count;

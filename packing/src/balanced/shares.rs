@@ -70,6 +70,8 @@ pub(super) struct Held<'a, const D: usize> {
     pub(super) points: usize,
     /// Points of it that were left to an earlier one: still part of its layer.
     pub(super) removed: usize,
+    /// The volume that they stand for beyond the body's own.
+    pub(super) excess: f64,
     /// How much of its surface particles is in which region, in particles: its own, and what lies beyond an exact surface.
     pub(super) reaches: Vec<(usize, f64)>,
 }
@@ -100,7 +102,7 @@ pub(super) fn shares<const D: usize>(
         .map(|held| {
             // Points that were left to another body are still part of this one's layer.
             let count = (held.points + held.removed) as f64;
-            let whole = Layer::of(held.body, held.surface, spacing).whole();
+            let whole = Layer::of(held.body, held.surface, spacing).whole() + held.excess;
             (whole / count.max(1.0)).clamp(
                 volume_per_site / VOLUME_LIMIT,
                 volume_per_site * VOLUME_LIMIT,

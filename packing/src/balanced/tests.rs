@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use sphpack_geometry::{Ball, Cuboid, GeometryError, Outline, Similarity};
+use sphpack_geometry::{Ball, Cuboid, GeometryError, Outline, Similarity, Thin};
 use sphpack_neighbors::{Domain, point};
 
 use crate::minimise::Finish;
@@ -211,6 +211,7 @@ fn surfaces_near_each_other_keep_particles_apart() {
                 name: name.to_owned(),
                 surface: Arc::new(Cuboid::new(min, max).expect("a box")),
                 inset_over_spacing,
+                thin: Thin::Mass,
             };
             let spacing = 0.07;
             let problem = Problem::new(Domain::new([-1.2, -1.0], [1.2, 1.0]), spacing)

@@ -1,5 +1,6 @@
 //! Bodies in parts, packed at many spacings and judged part by part by code that shares nothing with what packs.
 
+mod boxes;
 mod plane;
 mod space;
 
@@ -117,6 +118,16 @@ struct Row {
     worst: [f64; 3],
 }
 
+impl Row {
+    fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            worst: [0.0, 0.0, f64::INFINITY],
+            ..Self::default()
+        }
+    }
+}
+
 /// Packs and judges them all; fails where any of them is wrong.
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let folder = root().join("target/bodies");
@@ -139,6 +150,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             rows.push(row);
         }
     }
+    for row in boxes::rows(&folder, settings.quick, settings.only.as_deref())? {
+        println!("{}", line(&row));
+        rows.push(row);
+    }
     if settings.write {
         let path = root().join("docs/bodies.md");
         fs::write(&path, document(&rows))
@@ -155,11 +170,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
 fn judge(case: &dyn Case, folder: &Path, quick: bool) -> Result<Row, String> {
     let file = case.write(folder)?;
     let count = if quick { QUICK_SPACINGS } else { SPACINGS };
-    let mut row = Row {
-        name: case.name().to_owned(),
-        worst: [0.0, 0.0, f64::INFINITY],
-        ..Row::default()
-    };
+    let mut row = Row::new(case.name());
     for k in 0..count {
         let step = k as f64 / (count - 1) as f64;
         // The short form begins with a quarter of the size.

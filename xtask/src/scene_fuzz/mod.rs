@@ -6,7 +6,7 @@ mod generate;
 mod judge;
 mod kernel;
 pub(crate) mod kills;
-mod random;
+pub(crate) mod random;
 mod rows;
 mod shape;
 mod shrink;
