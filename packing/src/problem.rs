@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sphpack_geometry::{GeometryError, Repeated, Surface};
 use sphpack_kernels::KernelKind;
-use sphpack_neighbors::Domain;
+use sphpack_neighbors::{Domain, words};
 
 use crate::lattice::{Filling, Lattice};
 use crate::slabs;
@@ -105,7 +105,8 @@ pub enum PackingError {
     },
     /// A body sticks out of the domain.
     #[error(
-        "body \"{body}\" reaches outside the domain (body from {body_min:?} to {body_max:?}); enlarge the domain, or use margin = … instead of min and max"
+        "body \"{body}\" reaches outside the domain (body from {}); enlarge the domain, or use margin = … instead of min and max",
+        words::corners(body_min, body_max)
     )]
     OutsideDomain {
         /// The body's name.
