@@ -11,6 +11,11 @@ const FIXED: Range<i32> = -6..15;
 /// An edge that is a smaller part of the longest is none: its ends differ by rounding.
 const FLAT: f64 = 1e-9;
 
+/// A length: `0.3`.
+pub fn length(x: f64) -> String {
+    coordinate(x, x.abs())
+}
+
 /// A place in something of a size: `(30000.25, 0.5)` in a body of 1.
 ///
 /// ```
@@ -120,6 +125,10 @@ mod tests {
     #[test]
     fn places_of_any_kind() {
         assert_eq!(place(&[0.123_456, -7.0, 0.0], 0.01), "(0.12346, -7, 0)");
+        assert_eq!(
+            [0.1 + 0.2, f64::from(0.002_f32), 1e-9, 12_345.678].map(length),
+            ["0.3", "0.002", "1e-9", "12346"]
+        );
         assert_eq!(place(&[f64::NAN, f64::INFINITY], 1.0), "(NaN, inf)");
         assert_eq!(place(&[1.0 / 3.0, -0.0], 0.0), "(0.3333, 0)");
         assert_eq!(place(&[5e-324, f64::MAX], f64::MAX), "(0, 1.798e308)");

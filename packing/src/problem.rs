@@ -85,7 +85,8 @@ pub enum PackingError {
     },
     /// The spacing does not fit into the box.
     #[error(
-        "the spacing {spacing} is larger than the domain, which is only {size} wide; use a smaller spacing"
+        "the spacing {spacing} is larger than the domain, which is only {} wide; use a smaller spacing",
+        words::length(*.size)
     )]
     SpacingLargerThanDomain {
         /// ∆s.
@@ -94,7 +95,7 @@ pub enum PackingError {
         size: f64,
     },
     /// The spacing is larger than a body.
-    #[error("the spacing {spacing} is larger than body \"{body}\", which is only {size} across; use a spacing below {}", .size / 4.0)]
+    #[error("the spacing {spacing} is larger than body \"{body}\", which is only {} across; use a spacing below {}", words::length(*.size), words::length(.size / 4.0))]
     SpacingLargerThanBody {
         /// The body's name.
         body: String,

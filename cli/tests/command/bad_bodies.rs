@@ -13,9 +13,9 @@ fn refuse(name: &str, content: impl AsRef<[u8]>, parts: &[&str]) {
 
 #[test]
 fn other_units_are_thought_of() {
-    let thousand = |factor: f32| -> Vec<_> {
+    let cube_of = |size: f32| -> Vec<_> {
         (cube().iter())
-            .map(|corners| corners.map(|corner| corner.map(|x| factor * x)))
+            .map(|corners| corners.map(|corner| corner.map(|x| size * x)))
             .collect()
     };
     let scene = |more: &str| {
@@ -24,8 +24,8 @@ fn other_units_are_thought_of() {
         )
     };
     let desk = Desk::new()
-        .with("large.stl", stl(&thousand(2000.0)))
-        .with("small.stl", stl(&thousand(0.002)))
+        .with("large.stl", stl(&cube_of(2000.0)))
+        .with("small.stl", stl(&cube_of(0.002)))
         .with("margin.toml", scene("margin = 1.0"))
         .with(
             "wide.toml",
