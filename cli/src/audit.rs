@@ -5,7 +5,7 @@ mod anyone;
 use std::time::Instant;
 
 use serde::Serialize;
-use sphpack_neighbors::point;
+use sphpack_neighbors::{point, words};
 use sphpack_packing::closest_pair::CROWDED;
 use sphpack_packing::{Depths, Kind};
 use sphpack_separation::Side;
@@ -48,11 +48,18 @@ pub struct Audit {
     pub messages: Vec<String>,
     /// What it took, of the packing's `seconds.measuring`.
     pub seconds: f64,
+    /// ∆s: places are told apart by parts of it.
+    #[serde(skip)]
+    spacing: f64,
 }
 
 impl Audit {
     /// Nothing found yet.
-    fn clean(closest_pair_over_spacing: f64, [gamma_min, gamma_max]: [f64; 2]) -> Self {
+    fn clean(
+        spacing: f64,
+        closest_pair_over_spacing: f64,
+        [gamma_min, gamma_max]: [f64; 2],
+    ) -> Self {
         Self {
             passed: true,
             outside: 0,
@@ -64,6 +71,7 @@ impl Audit {
             worst_at: Vec::new(),
             messages: Vec::new(),
             seconds: 0.0,
+            spacing,
         }
     }
 
@@ -71,7 +79,9 @@ impl Audit {
         if self.messages.is_empty() {
             self.worst_at = at.map_or_else(Vec::new, |p| p.to_vec());
         }
-        let place = at.map_or_else(String::new, |p| format!(", worst at {}", words(p)));
+        let place = at.map_or_else(String::new, |p| {
+            format!(", worst at {}", words::place(&p, self.spacing))
+        });
         self.messages.push(format!("{message}{place}"));
         self.passed = false;
     }
@@ -86,6 +96,7 @@ impl Audit {
         let quality = &solution.quality;
         let density = &quality.density;
         let mut audit = Self::clean(
+            solution.problem.spacing,
             quality.closest_pair_over_spacing,
             [density.min, density.max],
         );
@@ -344,11 +355,6 @@ fn particles_are(count: usize) -> String {
         1 => "1 particle is".to_owned(),
         n => format!("{n} particles are"),
     }
-}
-
-fn words<const D: usize>(p: [f64; D]) -> String {
-    let all: Vec<String> = p.iter().map(|x| format!("{x:.4}")).collect();
-    format!("({})", all.join(", "))
 }
 
 /// What most likely helps.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sphpack_geometry::{Continued, Outline, Surface};
-use sphpack_neighbors::{Bounds, Domain};
+use sphpack_neighbors::{Bounds, Domain, words};
 
 use crate::Error;
 use crate::dimension::{Built, Dimension, Space};
@@ -57,8 +57,9 @@ where
         let (volume, whole) = (continued.volume(), built.surface.volume());
         if volume <= 0.0 {
             return Err(fail(format!(
-                "body \"{}\" lies outside the domain (body from {:?} to {:?}); enlarge the domain, move the body, or leave it out",
-                body.name, bounds.min, bounds.max
+                "body \"{}\" lies outside the domain (body from {}); enlarge the domain, move the body, or leave it out",
+                body.name,
+                words::corners(&bounds.min, &bounds.max)
             )));
         }
         if !sides.is_empty() {
@@ -88,8 +89,9 @@ fn drawn<const D: usize>(
         [domain.bounds.max, around.max],
     );
     let [a, b, c, d] = [side(0, low), side(1, low), side(0, high), side(1, high)];
-    let part = Outline::new(loops.clone())
-        .and_then(|all| Ok(all.intersection(&Outline::polygon(&[[a, b], [c, b], [c, d], [a, d]])?)));
+    let part = Outline::new(loops.clone()).and_then(|all| {
+        Ok(all.intersection(&Outline::polygon(&[[a, b], [c, b], [c, d], [a, d]])?))
+    });
     match part {
         Ok(Some(part)) => part.loops().map(<[_]>::to_vec).collect(),
         _ => loops,
@@ -97,11 +99,7 @@ fn drawn<const D: usize>(
 }
 
 /// The open sides that a body passes by more than `slack`, in words.
-fn passed<const D: usize>(
-    bounds: &Bounds<D>,
-    domain: &Domain<D>,
-    slack: f64,
-) -> Vec<String> {
+fn passed<const D: usize>(bounds: &Bounds<D>, domain: &Domain<D>, slack: f64) -> Vec<String> {
     let mut sides = Vec::new();
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(D) {
         if domain.periodic[axis] {

@@ -27,6 +27,8 @@ pub struct Cloud {
     pub id: Option<Vec<f64>>,
     /// Γ as the file says, where it does.
     pub gamma: Option<Vec<f64>>,
+    /// The smoothing length, where the file has the same for all.
+    pub smoothing_length: Option<f64>,
     /// Outward unit normals of boundary particles, where the file has them.
     pub normal: Option<Vec<[f64; 3]>>,
 }
@@ -47,7 +49,8 @@ pub struct CloudQuality {
 }
 
 impl Cloud {
-    /// Reads particles (.csv, .npz, .ply, .vtu, .vtp). Where the file has no volumes, each is `spacing`^dimension.
+    /// Reads particles (see [`Columns::read`]). Where the file has no volumes, they are masses over densities (`m` and `rho`,
+    /// or `mass` and `density`); where it has not both, each is `spacing`^dimension.
     ///
     /// # Errors
     /// [`Error::Input`] where the file cannot be used.
@@ -84,19 +87,8 @@ impl Cloud {
                 ),
             ));
         }
-        let volume = match column("volume") {
-            Some(volume) => volume.clone(),
-            None => vec![spacing.powi(dimension as i32); position.len()],
-        };
-        if let Some(bad) = volume.iter().position(|&v| !(v > 0.0 && v.is_finite())) {
-            return Err(Error::input(
-                path,
-                format!(
-                    "particle {bad} has the volume {}; volumes must be positive, finite numbers",
-                    volume[bad]
-                ),
-            ));
-        }
+        let volume = volumes(&columns, path)?
+            .unwrap_or_else(|| vec![spacing.powi(dimension as i32); position.len()]);
         let kind = match columns.words.get("kind") {
             None => vec![Kind::Free; position.len()],
             Some(words) => words
@@ -135,6 +127,7 @@ impl Cloud {
             kind,
             id: column("id").cloned(),
             gamma: column("gamma").cloned(),
+            smoothing_length: column("h").and_then(|h| common(h)),
             normal,
         })
     }
@@ -244,5 +237,54 @@ impl Cloud {
                 number * share
             ),
         ))
+    }
+}
+
+/// How far the smoothing lengths of one set may differ and still be one, as a part of it: numbers of 32 bits do.
+const SAME_LENGTH: f64 = 1e-6;
+
+/// The length that all are, if it is one.
+fn common(lengths: &[f64]) -> Option<f64> {
+    let first = *lengths.first()?;
+    let is_same = |h: &f64| (h - first).abs() <= SAME_LENGTH * first;
+    (first > 0.0 && first.is_finite() && lengths.iter().all(is_same)).then_some(first)
+}
+
+/// The particles' volumes, as far as the file says.
+fn volumes(columns: &Columns, path: &Path) -> Result<Option<Vec<f64>>, Error> {
+    let column = |name: &str| columns.numbers.get(name);
+    if let Some(volume) = column("volume") {
+        let bad = volume.iter().position(|&v| !(v > 0.0 && v.is_finite()));
+        return match bad {
+            None => Ok(Some(volume.clone())),
+            Some(bad) => Err(Error::input(
+                path,
+                format!(
+                    "particle {bad} has the volume {}; volumes must be positive, finite numbers",
+                    volume[bad]
+                ),
+            )),
+        };
+    }
+    // PySPH has zeros throughout where nothing was set.
+    let given = |names: [&'static str; 2]| {
+        (names.into_iter())
+            .filter_map(|name| Some((name, column(name)?)))
+            .find(|(_, values)| values.iter().any(|&value| value != 0.0))
+    };
+    let (Some((m, mass)), Some((rho, density))) = (given(["m", "mass"]), given(["rho", "density"]))
+    else {
+        return Ok(None);
+    };
+    let volume: Vec<f64> = mass.iter().zip(density).map(|(m, rho)| m / rho).collect();
+    match volume.iter().position(|&v| !(v > 0.0 && v.is_finite())) {
+        None => Ok(Some(volume)),
+        Some(bad) => Err(Error::input(
+            path,
+            format!(
+                "particle {bad} has {m} = {} and {rho} = {}, no volume: both must be positive, finite numbers; correct them, or add a column volume",
+                mass[bad], density[bad]
+            ),
+        )),
     }
 }

@@ -31,12 +31,14 @@ pub enum Error {
         message: String,
     },
     /// The scene can be read, but not packed.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}{}", path.display(), more(advice.as_deref()))]
     Packing {
         /// The scene's file.
         path: PathBuf,
         /// What is wrong.
         source: PackingError,
+        /// What else may help.
+        advice: Option<String>,
     },
     /// A body cannot be built.
     #[error("{}: body \"{body}\": {source}", path.display())]
@@ -83,6 +85,11 @@ fn place(at: Option<(usize, usize)>) -> String {
         Some((line, 0)) => format!(":{line}"),
         Some((line, column)) => format!(":{line}:{column}"),
     }
+}
+
+/// What follows the cure.
+fn more(advice: Option<&str>) -> String {
+    advice.map_or_else(String::new, |words| format!("; {words}"))
 }
 
 impl Error {

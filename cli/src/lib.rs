@@ -55,6 +55,7 @@ mod run;
 pub mod scene;
 mod surroundings;
 mod table;
+mod units;
 
 pub use audit::Audit;
 pub use body_file::{ReadBody, body_format};

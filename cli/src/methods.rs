@@ -82,6 +82,7 @@ where
 {
     let packed = Space::<D>::method(scene).pack(problem, observer);
     packed.map_err(|source| Error::Packing {
+        advice: None,
         path: scene.path.clone(),
         source,
     })
@@ -96,6 +97,7 @@ pub(crate) fn check<const D: usize>(problem: &Problem<D>, scene: &Scene) -> Resu
         _ => particle_surfaces(problem).map(drop),
     };
     checked.map_err(|source| Error::Packing {
+        advice: None,
         path: scene.path.clone(),
         source,
     })

@@ -3,14 +3,14 @@
 use std::time::Instant;
 
 use sphpack_geometry::GeometryError;
-use sphpack_neighbors::{Bounds, Domain};
+use sphpack_neighbors::{Bounds, Domain, words};
 use sphpack_packing::{Band, Body, Estimate, FrozenLayout, PackingError, Problem};
 
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Built, Dimension, Space};
 use crate::scene::{BandWidth, Fault, Frozen, Method, Role, Scene, Surroundings};
-use crate::{beyond, methods, overlap, precedence, roles};
+use crate::{beyond, methods, overlap, precedence, roles, units};
 
 pub(crate) use crate::memory::available_bytes;
 
@@ -281,6 +281,7 @@ where
     refuse_overlaps(scene, &problem.bodies)?;
     let fail = |source: PackingError| Error::Packing {
         path: scene.path.clone(),
+        advice: units::advice(scene, &problem, &source),
         source,
     };
     let moves = match (scene.packing.method, scene.packing.band) {
@@ -351,13 +352,12 @@ fn refuse_overlaps<const D: usize>(scene: &Scene, bodies: &[Body<D>]) -> Result<
         return Ok(());
     };
     let [a, b] = found.bodies.map(|i| &bodies[i].name);
-    let place: Vec<String> = found.place.iter().map(|x| format!("{x:.4}")).collect();
     Err(Error::Scene {
         path: scene.path.clone(),
         at: None,
         message: format!(
-            "bodies \"{a}\" and \"{b}\" overlap: ({}) is in both, {:.2} spacings deep; give the one that is to keep the common part a higher precedence (precedence = 1), or move one (bodies may touch)",
-            place.join(", "),
+            "bodies \"{a}\" and \"{b}\" overlap: {} is in both, {:.2} spacings deep; give the one that is to keep the common part a higher precedence (precedence = 1), or move one (bodies may touch)",
+            words::place(&found.place, scene.spacing),
             found.depth / scene.spacing
         ),
     })

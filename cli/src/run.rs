@@ -1,6 +1,6 @@
 //! The way of the data: scene, problem, particles, labels, figures.
 
-use sphpack_neighbors::point;
+use sphpack_neighbors::{point, words};
 use sphpack_packing::{Fields, Kind, Observer, Packed, Problem, Quality, StopReason};
 use sphpack_separation::{Labels, Side};
 
@@ -236,11 +236,10 @@ fn too_small<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Vec<Strin
     let site = problem.filling().volume_per_site();
     let is_solid = |body: usize| scene.body[body].role == Role::Solid;
     let words = |body: usize, what: &str, at: [f64; D], volume: f64| {
-        let at: Vec<String> = at.iter().map(|x| format!("{x:.4}")).collect();
         format!(
-            "{what}body \"{}\" at ({}) gets no particles: its volume {volume:.3e} is {:.2} of a particle's; its room is left to what is around it; a smaller spacing would show it",
+            "{what}body \"{}\" at {} gets no particles: its volume {volume:.3e} is {:.2} of a particle's; its room is left to what is around it; a smaller spacing would show it",
             scene.body[body].name,
-            at.join(", "),
+            words::place(&at, scene.spacing),
             volume / site
         )
     };

@@ -1,5 +1,7 @@
 //! What can be wrong with a body.
 
+use crate::soup::seven_digits;
+
 /// Why a body cannot be built or used. Every message says what is wrong, where, and what to do about it.
 ///
 /// Errors from files are wrapped in [`GeometryError::InFile`], which names the file.
@@ -70,7 +72,7 @@ pub enum GeometryError {
     #[error(
         "the outline meets itself at ({}, {}): side {} of loop {} and side {} of loop {}; move or remove a point there \
          (side k runs from point k to the next, counted from 0)",
-        place[0], place[1], first.1, first.0, second.1, second.0
+        seven_digits(place[0]), seven_digits(place[1]), first.1, first.0, second.1, second.0
     )]
     SelfIntersecting {
         /// Loop and side within the loop, counted from 0.
@@ -132,7 +134,7 @@ pub enum GeometryError {
     #[error(
         "the mesh is not closed: {open_edges} edges with one triangle (holes), {non_manifold} shared by more than two, the first near \
          ({}, {}, {}); close the holes and merge doubled vertices in a mesh editor",
-        place[0], place[1], place[2]
+        seven_digits(place[0]), seven_digits(place[1]), seven_digits(place[2])
     )]
     OpenMesh {
         /// Edges that belong to one triangle only.
@@ -145,7 +147,7 @@ pub enum GeometryError {
     /// Neighbouring triangles of a mesh face opposite ways.
     #[error(
         "neighbouring triangles face opposite ways at {edges} edges, the first near ({}, {}, {}); make the normals consistent in a mesh editor",
-        place[0], place[1], place[2]
+        seven_digits(place[0]), seven_digits(place[1]), seven_digits(place[2])
     )]
     InconsistentFacing {
         /// How many edges have two triangles that run along them the same way.

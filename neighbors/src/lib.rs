@@ -4,6 +4,7 @@
 //!   axes; the pair loop runs over blocks of [`LANES`] particles against their shared candidates.
 //! - [`KdTree`]: for sets that stand still. Nearest points and points within a radius.
 //! - [`point`], [`Bounds`], [`Domain`]: arithmetic on `[f64; D]`, boxes, boxes with periodic axes.
+//! - [`words`]: places and boxes as people read them.
 //!
 //! Invariants: the answer never depends on the number of threads; a list that is up to date is not built again, and
 //! using one does not allocate.
@@ -17,6 +18,7 @@ mod domain;
 mod kd_tree;
 pub mod point;
 mod search;
+pub mod words;
 
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sphpack_geometry::{GeometryError, Repeated, Surface, Thin};
 use sphpack_kernels::KernelKind;
-use sphpack_neighbors::Domain;
+use sphpack_neighbors::{Domain, words};
 
 use crate::lattice::{Filling, Lattice};
 use crate::slabs;
@@ -87,7 +87,8 @@ pub enum PackingError {
     },
     /// The spacing does not fit into the box.
     #[error(
-        "the spacing {spacing} is larger than the domain, which is only {size} wide; use a smaller spacing"
+        "the spacing {spacing} is larger than the domain, which is only {} wide; use a smaller spacing",
+        words::length(*.size)
     )]
     SpacingLargerThanDomain {
         /// ∆s.
@@ -96,7 +97,7 @@ pub enum PackingError {
         size: f64,
     },
     /// The spacing is larger than a body.
-    #[error("the spacing {spacing} is larger than body \"{body}\", which is only {size} across; use a spacing below {}", .size / 4.0)]
+    #[error("the spacing {spacing} is larger than body \"{body}\", which is only {} across; use a spacing below {}", words::length(*.size), words::length(.size / 4.0))]
     SpacingLargerThanBody {
         /// The body's name.
         body: String,
@@ -107,7 +108,8 @@ pub enum PackingError {
     },
     /// A body sticks out of the domain.
     #[error(
-        "body \"{body}\" reaches outside the domain (body from {body_min:?} to {body_max:?}); enlarge the domain, or use margin = … instead of min and max"
+        "body \"{body}\" reaches outside the domain (body from {}); enlarge the domain, or use margin = … instead of min and max",
+        words::corners(body_min, body_max)
     )]
     OutsideDomain {
         /// The body's name.

@@ -22,7 +22,7 @@ impl Audit {
             _ => pair::<3>(cloud, spacing),
         };
         let density = &quality.density;
-        let mut audit = Self::clean(pair.0, [density.min, density.max]);
+        let mut audit = Self::clean(spacing, pair.0, [density.min, density.max]);
         if let Some(ids) = &cloud.id {
             let mut ids = ids.clone();
             ids.sort_by(f64::total_cmp);

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use sphpack_geometry::{HoleLimit, Mesh, Soup};
+use sphpack_neighbors::words::{corners, place};
 
 use super::arguments::CheckArguments;
 use super::plain_text::visible;
@@ -157,8 +158,11 @@ fn list(values: &[f64], between: &str) -> String {
     words.join(between)
 }
 
-fn place(values: &[f64]) -> String {
-    format!("({})", list(values, ", "))
+/// The longest edge of a body's box.
+fn longest(examined: &Examined) -> f64 {
+    (examined.max.iter().zip(&examined.min))
+        .map(|(b, a)| b - a)
+        .fold(0.0, f64::max)
 }
 
 fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) -> String {
@@ -172,14 +176,13 @@ fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) ->
         &mut text,
         "size",
         &format!(
-            "{} from {} to {}",
+            "{} from {}",
             list(&size, " × "),
-            place(&examined.min),
-            place(&examined.max)
+            corners(&examined.min, &examined.max)
         ),
     );
     if let Some(mesh) = &examined.mesh {
-        mesh_words(&mut text, mesh);
+        mesh_words(&mut text, mesh, longest(examined));
     }
     if let Some(outline) = &examined.outline {
         outline_words(&mut text, outline);
@@ -210,7 +213,7 @@ fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) ->
                 short(100.0 * thin.part_of_surface),
                 short(thin.spacing),
                 short(thin.thinnest),
-                place(&thin.place)
+                place(&thin.place, longest(examined))
             )
         } else {
             format!("nothing is thinner than ∆s = {}", short(thin.spacing))
@@ -232,8 +235,9 @@ fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) ->
                 );
             }
             if examined.mesh.is_some() && arguments.wrap.is_none() {
-                let longest = size.iter().copied().fold(0.0, f64::max);
-                let cell = arguments.spacing.map_or(0.01 * longest, |s| 0.25 * s);
+                let cell = arguments
+                    .spacing
+                    .map_or(0.01 * longest(examined), |s| 0.25 * s);
                 let _ = write!(
                     verdict,
                     "; or `sphpack check {} --repair OUT.stl --wrap {}` makes a new, closed mesh on a grid with cells of that size",
@@ -251,7 +255,7 @@ fn words(examined: &Examined, written: &[String], arguments: &CheckArguments) ->
     text
 }
 
-fn mesh_words(text: &mut String, mesh: &MeshFindings) {
+fn mesh_words(text: &mut String, mesh: &MeshFindings, size: f64) {
     line(
         text,
         "mesh",
@@ -275,14 +279,13 @@ fn mesh_words(text: &mut String, mesh: &MeshFindings) {
             text,
             if number == 0 { "shells" } else { "" },
             &format!(
-                "{}: {}{facing}{inside}; {} triangles, area {}, volume {}, from {} to {}",
+                "{}: {}{facing}{inside}; {} triangles, area {}, volume {}, from {}",
                 number + 1,
                 shell.role,
                 grouped(shell.triangles),
                 short(shell.area),
                 short(shell.volume),
-                place(&shell.min),
-                place(&shell.max)
+                corners(&shell.min, &shell.max)
             ),
         );
     }
@@ -302,7 +305,7 @@ fn mesh_words(text: &mut String, mesh: &MeshFindings) {
                 "{} edges, {} across, near {}",
                 hole.edges,
                 short(hole.size),
-                place(&hole.place)
+                place(&hole.place, size)
             ),
         );
     }
@@ -340,7 +343,7 @@ fn outline_words(text: &mut String, outline: &OutlineFindings) {
             text,
             if number == 0 { "loops" } else { "" },
             &format!(
-                "{}: {}{inside}; {} points, {}, length {}, area {}, from {} to {}",
+                "{}: {}{inside}; {} points, {}, length {}, area {}, from {}",
                 number + 1,
                 one.role,
                 grouped(one.points),
@@ -351,8 +354,7 @@ fn outline_words(text: &mut String, outline: &OutlineFindings) {
                 },
                 short(one.length),
                 short(one.area),
-                place(&one.min),
-                place(&one.max)
+                corners(&one.min, &one.max)
             ),
         );
     }

@@ -12,6 +12,12 @@ use crate::picture::grouped;
 use crate::report::{Density, Residual};
 use crate::scene::kernel_by_name;
 
+/// Where neither the command line nor the file says.
+const H_OVER_SPACING: f64 = 1.2;
+
+/// What a file's own smoothing length may come to; beyond, it is in other units, or something else.
+const USUAL_H_OVER_SPACING: std::ops::RangeInclusive<f64> = 0.5..=4.0;
+
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
 struct Answer<'a> {
@@ -35,10 +41,10 @@ struct Numbers {
 
 pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
     for (name, value) in [
-        ("--spacing", arguments.spacing),
+        ("--spacing", Some(arguments.spacing)),
         ("--h-over-spacing", arguments.h_over_spacing),
     ] {
-        if !(value > 0.0 && value.is_finite()) {
+        if let Some(value) = value.filter(|&value| !(value > 0.0 && value.is_finite())) {
             return Err(Error::Usage(format!(
                 "{name} is {value}; it must be a positive, finite number"
             )));
@@ -48,7 +54,10 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
         .map_err(|message| Error::Usage(format!("--kernel: {message}")))?;
     threads::start(None)?;
     let cloud = Cloud::read(&arguments.particles, arguments.spacing)?;
-    let measured = cloud.measure(arguments.spacing, kernel, arguments.h_over_spacing)?;
+    let own = (cloud.smoothing_length.map(|h| h / arguments.spacing))
+        .filter(|ratio| USUAL_H_OVER_SPACING.contains(ratio));
+    let h_over_spacing = (arguments.h_over_spacing).or(own).unwrap_or(H_OVER_SPACING);
+    let measured = cloud.measure(arguments.spacing, kernel, h_over_spacing)?;
     let audit = Audit::of_cloud(&cloud, arguments.spacing, &measured);
     let CloudQuality {
         density,
@@ -61,7 +70,7 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
         dimension: cloud.dimension,
         spacing: arguments.spacing,
         kernel: kernel.name(),
-        h_over_spacing: arguments.h_over_spacing,
+        h_over_spacing,
         particles: Numbers {
             total: cloud.position.len(),
             frozen: cloud.frozen_count(),

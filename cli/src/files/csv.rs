@@ -1,12 +1,12 @@
 //! Particles as comma-separated text: a header, then one row per particle.
 
-use std::borrow::Cow;
 use std::fmt;
 use std::io::{self, Write};
 use std::path::Path;
 
 use super::Columns;
 use super::columns::NUMBERS;
+use super::csv_header::{Header, rows};
 use crate::Error;
 use crate::table::Table;
 
@@ -88,7 +88,8 @@ fn quoted(field: &str) -> String {
     }
 }
 
-/// Reads particles: a header with x and y at least, fields separated by commas, semicolons or tabs.
+/// Reads particles: names with x and y at least, in a header or a comment above the numbers, or none above two or three
+/// columns of numbers; fields separated by commas, semicolons, tabs or spaces.
 ///
 /// # Errors
 /// [`Error::Input`] with the line.
@@ -99,71 +100,40 @@ pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Columns, Error> {
             "this is not text; a particle CSV has a header line with x,y and numbers below",
         )
     })?;
-    let mut lines = text
-        .trim_start_matches('\u{feff}')
-        .lines()
-        .enumerate()
-        .filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
-    let Some((header_line, header)) = lines.next() else {
-        return Err(Error::input(
-            path,
-            "the file is empty; it needs a header line with x,y and one row per particle",
-        ));
-    };
-    let separator = [',', ';', '\t']
-        .into_iter()
-        .find(|&c| header.contains(c))
-        .unwrap_or(',');
-    let names: Vec<String> = fields(header, separator)
-        .into_iter()
-        .map(|name| name.trim().to_lowercase())
-        .collect();
-    for needed in ["x", "y"] {
-        if !names.iter().any(|name| name == needed) {
-            return Err(Error::input_line(
-                path,
-                header_line + 1,
-                format!(
-                    "the header has no column \"{needed}\"; write it as x,y or x,y,z, with volume and kind if known"
-                ),
-            ));
-        }
-    }
-    if let Some((index, twice)) = names
-        .iter()
-        .enumerate()
-        .find(|(index, name)| names[..*index].contains(name))
-    {
-        return Err(Error::input_line(
-            path,
-            header_line + 1,
-            format!(
-                "column {} is called \"{twice}\" like an earlier one; give each its own name",
-                index + 1
-            ),
-        ));
-    }
+    let text = text.trim_start_matches('\u{feff}');
+    let Header {
+        names,
+        separator,
+        line: header_line,
+    } = Header::of(text, path)?;
+    let rows = rows(text).filter(|&(line, _)| line > header_line);
+    let fields = |row| separator.fields_of(row, names.len());
     // Twice over the rows, first to see what they are: as text they would take many times the memory.
     let mut kinds = names
         .iter()
         .map(|name| Column::of(name))
         .collect::<Vec<_>>();
     let mut count = 0;
-    for (index, line) in lines.clone() {
-        let row = fields(line, separator);
+    for (line, row) in rows.clone() {
+        let row = fields(row);
         if row.len() != names.len() {
             return Err(Error::input_line(
                 path,
-                index + 1,
+                line,
                 format!(
-                    "{} fields, but the header has {}; complete the row",
+                    "{} fields, but the {} has {}; complete the row",
                     row.len(),
+                    if header_line > 0 {
+                        "header"
+                    } else {
+                        "first row"
+                    },
                     names.len()
                 ),
             ));
         }
         for (kind, field) in kinds.iter_mut().zip(&row) {
-            kind.see(field, index + 1);
+            kind.see(field, line);
         }
         count += 1;
     }
@@ -184,8 +154,8 @@ pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Columns, Error> {
             _ => numbers[place].reserve_exact(count),
         }
     }
-    for (_, line) in lines {
-        for (place, field) in fields(line, separator).into_iter().enumerate() {
+    for (_, row) in rows {
+        for (place, field) in fields(row).into_iter().enumerate() {
             match kinds[place] {
                 Column::Words => words[place].push(field.into_owned()),
                 _ => numbers[place].extend(field.trim().parse::<f64>()),
@@ -236,34 +206,4 @@ impl Column {
             _ => {}
         }
     }
-}
-
-/// The fields of a row, without their quotation marks.
-fn fields(row: &str, separator: char) -> Vec<Cow<'_, str>> {
-    if !row.contains('"') {
-        return row.split(separator).map(Cow::Borrowed).collect();
-    }
-    quoted_fields(row, separator)
-        .into_iter()
-        .map(Cow::Owned)
-        .collect()
-}
-
-fn quoted_fields(row: &str, separator: char) -> Vec<String> {
-    let mut all = vec![String::new()];
-    let mut inside = false;
-    let mut letters = row.chars().peekable();
-    while let Some(letter) = letters.next() {
-        let field = all.last_mut();
-        match (letter, inside) {
-            ('"', true) if letters.peek() == Some(&'"') => {
-                letters.next();
-                field.into_iter().for_each(|f| f.push('"'));
-            }
-            ('"', _) => inside = !inside,
-            (c, false) if c == separator => all.push(String::new()),
-            (c, _) => field.into_iter().for_each(|f| f.push(c)),
-        }
-    }
-    all
 }

@@ -161,6 +161,71 @@ fn csv_of_others() {
     refuse("x,y,volume\n1,2,big\n", &["p.csv:2", "volume"]);
 }
 
+#[track_caller]
+fn rows(text: &str) -> Columns {
+    read_csv(text.as_bytes(), Path::new("p.csv")).unwrap()
+}
+
+#[test]
+fn csv_of_numpy() {
+    // numpy.savetxt("p.csv", a, header="x y") and with commas, on every system.
+    for text in [
+        "# x y volume\n1.0e+00 2.0e+00 5.0e-01\n3.0e+00 -4.0e+00 2.5e-01\n",
+        "# x,y,volume\r\n1.0e+00,2.0e+00,5.0e-01\r\n\r\n3.0e+00,-4.0e+00,2.5e-01\r\n",
+        "# x,y,volume\n1 2 0.5\n3 -4 0.25\n",
+        "# made by hand, x to the right\n#X; Y; Volume\n# in metres\n1;2;.5;\n3;-4;.25;\n",
+        "x,y,volume\n  1    2 0.5\n  3   -4 0.25\n",
+        "x y volume\n1\t2\t0.5\n3\t-4\t0.25\n",
+        "x\ty\tvolume\t\n1\t2\t0.5\t\n3\t-4\t0.25\t\n",
+        "\"x\" \"y\" \"volume\"\n1 2 0.5\n3 -4 0.25 \n",
+    ] {
+        let columns = rows(text);
+        assert_eq!(columns.numbers["x"], [1.0, 3.0], "{text}");
+        assert_eq!(columns.numbers["y"], [2.0, -4.0], "{text}");
+        assert_eq!(columns.numbers["volume"], [0.5, 0.25], "{text}");
+        assert_eq!(columns.numbers.len() + columns.words.len(), 3, "{text}");
+    }
+    let columns = rows("x y kind body\n1 2 free \"left wing\"\n3 4 frozen none\n");
+    assert_eq!(columns.words["body"], ["left wing", "none"]);
+    // A separator at the end of the rows only, or a last column without a name.
+    assert_eq!(rows("x,y\n1,2,\n3,4,\n").numbers.len(), 2);
+    assert_eq!(rows("x,y,\n1,2,7\n3,4,8\n").numbers[""], [7.0, 8.0]);
+}
+
+#[test]
+fn csv_without_names() {
+    for text in [
+        "1 2\n3 4\n",
+        "# made by hand\n1,2\n3,4\n",
+        "\n1;2;\n3;4;\n",
+        "1\t2\r\n3\t4",
+    ] {
+        let columns = rows(text);
+        assert_eq!(columns.numbers["x"], [1.0, 3.0], "{text}");
+        assert_eq!(columns.numbers["y"], [2.0, 4.0], "{text}");
+        assert_eq!(columns.numbers.len(), 2, "{text}");
+    }
+    assert_eq!(rows("1 2 3\n4 5 6e-1\n").numbers["z"], [3.0, 0.6]);
+    refuse(
+        "1 2 3 4\n",
+        &["p.csv:1", "4 numbers", "x,y,z", "volume (or m and rho)"],
+    );
+    refuse("# x,y\n1,2,3,4\n", &["p.csv:2", "4 numbers"]);
+    refuse("1 2\n3\n", &["p.csv:2", "1 fields", "first row has 2"]);
+    refuse("1 2\n3 four\n", &["p.csv:2", "y is \"four\""]);
+    refuse("nan 2\n3 4\n", &["p.csv:1", "x is \"nan\""]);
+    refuse("# x y x\n1 2 3\n", &["called \"x\""]);
+}
+
+#[test]
+fn names_in_capitals() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float X\nproperty float Y\n\
+        property float m\nproperty float M\nend_header\n1 2 3 4\n";
+    let columns = Columns::parse(ParticleFormat::Ply, text.as_bytes(), Path::new("p.ply")).unwrap();
+    let names: Vec<&str> = columns.numbers.keys().map(String::as_str).collect();
+    assert_eq!(names, ["M", "m", "x", "y"]);
+}
+
 #[test]
 fn vtu_of_others() {
     let text = "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\

@@ -34,21 +34,34 @@ pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 6] = [
     (ParticleFormat::Ply, "ply"),
 ];
 
+/// A path's ending in small letters, empty where it has none.
+pub(super) fn ending(path: &Path) -> String {
+    path.extension()
+        .map_or_else(String::new, |e| e.to_string_lossy().to_lowercase())
+}
+
 impl ParticleFormat {
     /// The format that a path's ending names.
     ///
     /// # Errors
     /// [`Error::Input`] with the known endings.
     pub fn of(path: &Path) -> Result<Self, Error> {
-        let ending = path
-            .extension()
-            .map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
+        let ending = ending(path);
         if ending.is_empty() {
             let known = PARTICLE_FORMATS.map(|(_, name)| name).join(", ");
             return Err(Error::input(
                 path,
                 format!(
                     "the name has no ending that says which format; add one: there are {known}"
+                ),
+            ));
+        }
+        if matches!(ending.as_str(), "npy" | "txt" | "dat") {
+            let instead = if ending == "npy" { "npz" } else { "csv" };
+            return Err(Error::input(
+                path,
+                format!(
+                    "particles are read from .{ending} files, not written to them; name it .{instead}"
                 ),
             ));
         }

@@ -3,9 +3,13 @@
 mod arrays;
 mod columns;
 mod csv;
+mod csv_header;
 #[cfg(test)]
 mod foreign_tests;
 mod format;
+mod npy_read;
+#[cfg(test)]
+mod npy_tests;
 mod npz;
 mod npz_read;
 mod number_type;
@@ -36,6 +40,7 @@ use crate::Error;
 pub use columns::Columns;
 pub use csv::{read_csv, write_csv};
 pub use format::{PARTICLE_FORMATS, ParticleFormat};
+pub use npy_read::read_npy;
 pub use npz::write_npz;
 pub use npz_read::read_npz;
 pub use ply::write_ply;

@@ -7,7 +7,7 @@ use flate2::Crc;
 use flate2::read::DeflateDecoder;
 
 use super::columns::NUMBERS;
-use super::number_type::{ByteOrder, NumberType};
+use super::npy_read::{Array, Values, number};
 use super::{Columns, MAX_INPUT};
 use crate::Error;
 
@@ -46,6 +46,7 @@ fn damaged(what: &str) -> String {
 fn read(bytes: &[u8]) -> Result<Columns, String> {
     let mut columns = Columns::default();
     let mut budget = MAX_INPUT;
+    let mut has_objects = false;
     let members = directory(bytes)?;
     refuse_bomb(&members, bytes.len())?;
     for member in members {
@@ -56,6 +57,7 @@ fn read(bytes: &[u8]) -> Result<Columns, String> {
         budget -= content.len() as u64;
         let complain = |what: &str| damaged(&format!("array {name} {what}"));
         let array = Array::of(&content).ok_or_else(|| complain("has no readable head"))?;
+        has_objects |= array.is_of_objects();
         let [count] = array.shape[..] else {
             continue;
         };
@@ -70,7 +72,14 @@ fn read(bytes: &[u8]) -> Result<Columns, String> {
             None => {}
         }
     }
+    columns.lower_case();
     let Some(count) = columns.numbers.get("x").map(Vec::len) else {
+        if has_objects {
+            return Err(
+                "its arrays are objects of Python, which only Python can read; save the numbers themselves: numpy.savez(FILE, x=…, y=…, m=…, rho=…, h=…)"
+                    .into(),
+            );
+        }
         let names: Vec<&str> = columns
             .numbers
             .keys()
@@ -96,13 +105,6 @@ fn read(bytes: &[u8]) -> Result<Columns, String> {
     columns.numbers.retain(|_, all| all.len() == count);
     columns.words.retain(|_, all| all.len() == count);
     Ok(columns)
-}
-
-/// The number in `size` bytes at `at`.
-fn number(bytes: &[u8], at: usize, size: usize) -> Option<u64> {
-    let mut raw = [0; 8];
-    raw[..size].copy_from_slice(bytes.get(at..at.checked_add(size)?)?);
-    Some(u64::from_le_bytes(raw))
 }
 
 /// A file in the archive.
@@ -207,110 +209,5 @@ impl Member {
             return Err(complain("is not what its checksum says"));
         }
         Ok(content)
-    }
-}
-
-/// What an array's bytes mean.
-struct Array<'a> {
-    kind: &'a str,
-    shape: Vec<usize>,
-    data: &'a [u8],
-}
-
-enum Values {
-    Numbers(Vec<f64>),
-    Words(Vec<String>),
-}
-
-impl<'a> Array<'a> {
-    fn of(bytes: &'a [u8]) -> Option<Self> {
-        if bytes.get(..6)? != b"\x93NUMPY" {
-            return None;
-        }
-        let (begin, length) = match *bytes.get(6)? {
-            1 => (10, number(bytes, 8, 2)?),
-            _ => (12, number(bytes, 8, 4)?),
-        };
-        let data = begin + length as usize;
-        let head = std::str::from_utf8(bytes.get(begin..data)?).ok()?;
-        let after = |key: &str| Some(head.split_once(key)?.1.trim_start_matches([':', ' ']));
-        let kind = after("'descr'")?;
-        // Records have a list here; they are none of ours.
-        let kind = match kind.strip_prefix('\'') {
-            Some(kind) => kind.split_once('\'')?.0,
-            None => "",
-        };
-        let shape = after("'shape'")?.strip_prefix('(')?.split_once(')')?.0;
-        let shape = (shape.split(',').map(str::trim))
-            .filter(|axis| !axis.is_empty())
-            .map(|axis| axis.parse().ok())
-            .collect::<Option<_>>()?;
-        Some(Self {
-            kind,
-            shape,
-            data: bytes.get(data..)?,
-        })
-    }
-
-    /// The type's letter, and its size in bytes (of words, in letters).
-    fn parts(&self) -> Option<(ByteOrder, char, usize)> {
-        let mut letters = self.kind.chars();
-        let order = match letters.next()? {
-            '>' => ByteOrder::Big,
-            _ => ByteOrder::Little,
-        };
-        let letter = letters.next()?;
-        Some((order, letter, letters.as_str().parse().ok()?))
-    }
-
-    fn number_type(&self) -> Option<NumberType> {
-        let (_, letter, size) = self.parts()?;
-        Some(match (letter, size) {
-            ('f', 8) => NumberType::F64,
-            ('f', 4) => NumberType::F32,
-            ('i', 1) => NumberType::I8,
-            ('u' | 'b', 1) => NumberType::U8,
-            ('i', 2) => NumberType::I16,
-            ('u', 2) => NumberType::U16,
-            ('i', 4) => NumberType::I32,
-            ('u', 4) => NumberType::U32,
-            ('i', 8) => NumberType::I64,
-            ('u', 8) => NumberType::U64,
-            _ => return None,
-        })
-    }
-
-    fn is_known(&self) -> bool {
-        self.number_type().is_some() || matches!(self.parts(), Some((_, 'U' | 'S', _)))
-    }
-
-    /// The entries; `None` where there are fewer, or of another type.
-    fn values(&self, count: usize) -> Option<Values> {
-        let (order, letter, size) = self.parts()?;
-        let exactly = |size: usize| self.data.get(..count.checked_mul(size)?);
-        if let Some(number_type) = self.number_type() {
-            let bytes = exactly(number_type.size())?;
-            return Some(Values::Numbers(number_type.numbers(order, bytes)));
-        }
-        let width = match letter {
-            'U' => size.checked_mul(4)?,
-            'S' => size,
-            _ => return None,
-        };
-        if width == 0 {
-            // `count` is only claimed.
-            return (count == 0).then(|| Values::Words(Vec::new()));
-        }
-        let word = |raw: &[u8]| {
-            let letters: String = match letter {
-                'U' => (NumberType::U32.numbers(order, raw).into_iter())
-                    .map(|letter| char::from_u32(letter as u32).unwrap_or('\u{fffd}'))
-                    .collect(),
-                _ => String::from_utf8_lossy(raw).into_owned(),
-            };
-            letters.trim_end_matches('\0').to_owned()
-        };
-        let words = exactly(width)?.chunks_exact(width).map(word);
-        Some(Values::Words(words.collect()))
     }
 }

@@ -12,6 +12,71 @@ fn refuse(name: &str, content: impl AsRef<[u8]>, parts: &[&str]) {
 }
 
 #[test]
+fn other_units_are_thought_of() {
+    let cube_of = |size: f32| -> Vec<_> {
+        (cube().iter())
+            .map(|corners| corners.map(|corner| corner.map(|x| size * x)))
+            .collect()
+    };
+    let scene = |more: &str| {
+        format!(
+            "spacing = 0.1\n[domain]\n{more}\n[[body]]\nname = \"part\"\nshape = {{ file = \"large.stl\" }}\n"
+        )
+    };
+    let desk = Desk::new()
+        .with("large.stl", stl(&cube_of(2000.0)))
+        .with("small.stl", stl(&cube_of(0.002)))
+        .with("margin.toml", scene("margin = 1.0"))
+        .with(
+            "wide.toml",
+            scene("min = [-1.0, -1.0, -1.0]\nmax = [3000.0, 3000.0, 3000.0]"),
+        )
+        .with(
+            "box.toml",
+            scene("min = [-1.0, -1.0, -1.0]\nmax = [3.0, 3.0, 3.0]") + "role = \"container\"\n",
+        );
+    for (arguments, advice) in [
+        (
+            &["pack", "large.stl", "--spacing", "0.1"][..],
+            "if large.stl is in millimetres, --scale 0.001 makes it 20 spacings across",
+        ),
+        (
+            &["pack", "large.stl", "--spacing", "0.1", "--scale", "0.5"],
+            "--scale 0.0005 makes it 10 spacings",
+        ),
+        (
+            &["pack", "small.stl", "--spacing", "0.1"],
+            "if small.stl is in metres and the spacing in millimetres, --scale 1000 makes it 20",
+        ),
+        (
+            &["pack", "margin.toml"],
+            "large.stl is in millimetres, scale = 0.001 in body \"part\" makes it 20",
+        ),
+        (&["pack", "box.toml"], "scale = 0.001 in body \"part\""),
+    ] {
+        desk.refuse(arguments, &[advice]);
+    }
+    // Where that would not help, nothing is said.
+    for arguments in [
+        &["pack", "large.stl", "--spacing", "0.00001"][..],
+        &[
+            "pack",
+            "large.stl",
+            "--spacing",
+            "1.0",
+            "--margin",
+            "100000",
+        ],
+        &["pack", "small.stl", "--spacing", "10"],
+        &["pack", "wide.toml"],
+    ] {
+        let ending = desk.run(arguments);
+        assert_eq!(ending.status, Some(2), "{arguments:?}: {ending:?}");
+        assert!(!ending.stderr.contains("scale"), "{ending:?}");
+    }
+}
+
+#[test]
 fn missing_files() {
     for name in ["nothing.stl", "nothing.csv", "no/folder.stl"] {
         Desk::new().refuse(

@@ -71,6 +71,14 @@ fn numbers_are_checked() {
         "max = [-1.2, 2.0]",
         &["lies outside the domain", "enlarge the domain"],
     );
+    refuse(
+        "center = [0.0, 0.0]",
+        "center = [30000.1, 0.0]",
+        &[
+            "outside the domain",
+            "body from (29999.1, -1) to (30001.1, 1)",
+        ],
+    );
     refuse("max = [2.0, 2.0]", "max = [1e300, 2.0]", &[""]);
     refuse("max = [2.0, 2.0]", "max = [1e308, 1e308]", &[""]);
     refuse(

@@ -32,6 +32,31 @@ fn a_clean_body() {
 }
 
 #[test]
+fn far_from_the_origin_corners_are_told_apart() {
+    let far = |triangles: &[[[f32; 3]; 3]]| {
+        let moved: Vec<_> = (triangles.iter())
+            .map(|corners| corners.map(|[x, y, z]| [x + 30_000.25, y, z - 0.5]))
+            .collect();
+        Desk::new().with("far.stl", stl(&moved))
+    };
+    let words = far(&cube()).succeed(&["check", "far.stl"]).stdout;
+    assert_eq!(
+        words
+            .matches("from (30000.25, 0, -0.5) to (30001.25, 1, 0.5)")
+            .count(),
+        2,
+        "{words}"
+    );
+    let words = far(&cube()[..10]).run(&["check", "far.stl"]).stdout;
+    for part in [
+        "across, near (30001.25, 0.5, 0)",
+        "the first near (30001.25, ",
+    ] {
+        assert!(words.contains(part), "{words}");
+    }
+}
+
+#[test]
 fn every_defect_has_a_count_and_a_place() {
     let mut triangles = cube();
     triangles[4].swap(0, 1);

@@ -3,7 +3,7 @@
 use serde_json::Value;
 use sphpack::files::{Columns, PARTICLE_FORMATS};
 
-use crate::Desk;
+use crate::{CYLINDER, Desk};
 
 /// Two bodies of different densities, one with an awkward name.
 const TWO: &str = "\
@@ -71,6 +71,35 @@ fn all_formats_say_the_same() {
             let is_solid = csv.words["side"][i] == "solid";
             assert_eq!(is_solid, !body.is_empty());
         }
+    }
+}
+
+/// With all that a file may hold: frozen particles, pressure and density.
+#[test]
+fn whatever_is_written_is_measured() {
+    let more = "\
+[fluid]
+hydrostatic = { gravity = [0.0, -9.81], level = 4.0, sound_speed = 90.0 }
+[output]
+include = [\"free\", \"boundary\", \"fixed\", \"frozen\"]
+";
+    let scene = CYLINDER.to_owned() + more;
+    let desk = Desk::new().with("box.toml", scene);
+    let outputs = all_outputs();
+    let mut arguments = vec!["pack", "box.toml"];
+    arguments.extend(outputs.iter().map(String::as_str));
+    desk.succeed(&arguments);
+    let answers: Vec<Value> = PARTICLE_FORMATS
+        .iter()
+        .map(|(_, ending)| {
+            let name = format!("o.{ending}");
+            let said = desk.succeed(&["quality", &name, "--spacing", "0.2", "--json"]);
+            serde_json::from_str(&said.stdout).expect("JSON")
+        })
+        .collect();
+    assert!(answers[0]["particles"]["frozen"].as_u64() > Some(100));
+    for answer in &answers {
+        assert_eq!(answer, &answers[0]);
     }
 }
 

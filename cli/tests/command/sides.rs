@@ -33,7 +33,10 @@ fn check(report: &Value, volumes: &[f64], within: f64) {
     for (body, exact) in bodies.iter().zip(volumes) {
         let [whole, packed] = ["volume_true", "volume"].map(|key| number(&body[key]));
         assert!((whole - exact).abs() <= within, "{whole}, not {exact}");
-        assert!((packed - exact).abs() <= 1e-2 * exact, "{packed}, not {exact}");
+        assert!(
+            (packed - exact).abs() <= 1e-2 * exact,
+            "{packed}, not {exact}"
+        );
     }
 }
 
@@ -69,7 +72,10 @@ fn what_passes_a_side_is_cut_and_told() {
     let report = pack(&desk, "cut.toml");
     check(&report, &[0.77, 0.5 * PI * 0.36], 1e-6);
     let warnings = report["warnings"].to_string();
-    for part in ["\\\"pile\\\" reaches beyond the lower y side", "\\\"disc\\\" reaches beyond the upper x side"] {
+    for part in [
+        "\\\"pile\\\" reaches beyond the lower y side",
+        "\\\"disc\\\" reaches beyond the upper x side",
+    ] {
         assert!(warnings.contains(part), "{warnings}");
     }
     // The published methods refuse it, and name the cure.
@@ -77,9 +83,15 @@ fn what_passes_a_side_is_cut_and_told() {
     let desk = desk.with("hybrid.toml", hybrid);
     desk.refuse(
         &["pack", "hybrid.toml"],
-        &["hybrid.toml", "\"pile\"", "reaches outside the domain", "balanced"],
+        &[
+            "hybrid.toml",
+            "\"pile\"",
+            "reaches outside the domain",
+            "balanced",
+        ],
     );
-    let away = "[[body]]\nname = \"away\"\nshape = { circle = { center = [5.0, 1.0], radius = 0.6 } }\n";
+    let away =
+        "[[body]]\nname = \"away\"\nshape = { circle = { center = [5.0, 1.0], radius = 0.6 } }\n";
     let desk = desk.with("away.toml", scene(0.1, OPEN, away));
     desk.refuse(
         &["pack", "away.toml"],
@@ -147,7 +159,11 @@ fn a_void_of_higher_precedence_cuts() {
     assert!((number(&block["volume"]) - 1.02).abs() < 5e-3);
     desk.refuse(
         &["pack", "cross.toml"],
-        &["\"bore\" crosses the surface", "\"block\"", "precedence = 1"],
+        &[
+            "\"bore\" crosses the surface",
+            "\"block\"",
+            "precedence = 1",
+        ],
     );
 }
 
@@ -182,8 +198,14 @@ fn thin_parts_hold_water() {
         })
         .collect();
     along.sort_by(f64::total_cmp);
-    assert!(along.windows(2).all(|pair| pair[1] - pair[0] < 0.12), "{along:?}");
-    assert!(along[0] - 0.9 < 0.06 && 2.6 - along[along.len() - 1] < 0.06, "{along:?}");
+    assert!(
+        along.windows(2).all(|pair| pair[1] - pair[0] < 0.12),
+        "{along:?}"
+    );
+    assert!(
+        along[0] - 0.9 < 0.06 && 2.6 - along[along.len() - 1] < 0.06,
+        "{along:?}"
+    );
     desk.refuse(
         &["pack", "hybrid.toml"],
         &["hybrid.toml:8:", "\"strip\"", "watertight", "balanced"],

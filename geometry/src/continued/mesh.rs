@@ -12,11 +12,11 @@ use self::contents::pieces_in;
 use self::moved::Moved;
 use super::window::{holds, part_of_way};
 use super::{Continued, Reach, Whole, groups_of_images, into, is_moved, moved_by, slack, snapped};
+use crate::GeometryError;
 use crate::mesh::{Mesh, triangle};
 use crate::sample::{Candidates, spread};
 use crate::soup::Soup;
 use crate::surface::{Closest, Features, Surface};
-use crate::GeometryError;
 
 /// Pieces of a mesh within the box with less volume than this, in parts of the box's, are none.
 const NOTHING: f64 = 1e-12;
@@ -50,7 +50,8 @@ impl Mesh {
                 .collect(),
             triangles: self.triangles().to_vec(),
         };
-        net.triangles.retain(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
+        net.triangles
+            .retain(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
         let mut goes_on = reach.iter().any(|reach| reach.periods > 0);
         for axis in (0..3).filter(|&axis| !domain.periodic[axis]) {
             goes_on |= reach[axis].passes != [false; 2];
@@ -73,7 +74,8 @@ impl Net {
     /// Whether a triangle lies across an axis at such a level, to `slack`, and looks out of the box.
     fn is_on(&self, t: &[u32; 3], axis: usize, level: f64, out: f64, slack: f64) -> bool {
         let corners = t.map(|v| self.vertices[v as usize]);
-        corners.iter().all(|c| (c[axis] - level).abs() <= slack) && triangle::area_vector(&corners)[axis] * out > 0.0
+        corners.iter().all(|c| (c[axis] - level).abs() <= slack)
+            && triangle::area_vector(&corners)[axis] * out > 0.0
     }
 
     /// Moves the faces on an open side out by the size of the box, with walls behind them; whether there are any.
@@ -88,7 +90,8 @@ impl Net {
         let on: Vec<usize> = (0..self.triangles.len())
             .filter(|&t| {
                 let level = self.vertices[self.triangles[t][0] as usize][axis];
-                (level - side) * out >= 0.0 && self.is_on(&self.triangles[t], axis, level, out, slack)
+                (level - side) * out >= 0.0
+                    && self.is_on(&self.triangles[t], axis, level, out, slack)
             })
             .collect();
         if on.is_empty() {
@@ -128,7 +131,12 @@ impl Net {
     }
 
     /// The body and its images along a periodic axis, joined where they meet.
-    fn with_images(self, domain: &Domain<3>, axis: usize, reach: Reach) -> Result<Self, GeometryError> {
+    fn with_images(
+        self,
+        domain: &Domain<3>,
+        axis: usize,
+        reach: Reach,
+    ) -> Result<Self, GeometryError> {
         let (min, max) = (domain.bounds.min[axis], domain.bounds.max[axis]);
         let count = reach.periods.max(1) as i32;
         let images = |between: &dyn Fn(&[u32; 3], i32) -> bool| {

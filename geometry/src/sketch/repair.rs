@@ -8,7 +8,7 @@ use super::report::OutlineReport;
 use super::survey::{Relation, Survey};
 use crate::outline::booleans::{Filled, resolved};
 use crate::segment::signed_area;
-use crate::soup::{Joined, four_digits};
+use crate::soup::{Joined, four_digits, seven_digits};
 
 /// Something that was done to loops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,7 +105,7 @@ impl fmt::Display for OutlineRepair {
                 )
             ),
             Self::Untangled { loops, place, area } => {
-                let [x, y] = place.map(four_digits);
+                let [x, y] = place.map(seven_digits);
                 write!(
                     f,
                     "{loops} {}, first near ({x}, {y}), taken for what {} around the right way; an area of {} that was wound around twice or the wrong way counts once or not at all",

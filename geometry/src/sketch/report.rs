@@ -4,7 +4,7 @@ use std::fmt;
 
 use sphpack_neighbors::Bounds;
 
-use crate::soup::four_digits;
+use crate::soup::seven_digits;
 
 /// A kind of defect of an outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -137,7 +137,7 @@ pub struct OutlineDefect {
 
 impl fmt::Display for OutlineDefect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y] = self.place.map(four_digits);
+        let [x, y] = self.place.map(seven_digits);
         write!(
             f,
             "{} {}, {}near ({x}, {y}), in loop {}",

@@ -25,8 +25,8 @@ use crate::{GeometryError, Similarity};
 
 pub use body::Mended;
 pub use repair::{HoleLimit, Repair, Repaired};
-pub(crate) use report::four_digits;
 pub use report::{Defect, DefectKind, Hole, MeshReport, Shell, ShellRole};
+pub(crate) use report::{four_digits, seven_digits};
 pub(crate) use shells::Joined;
 pub(crate) use triangulate::{MOST_POINTS, least_area};
 

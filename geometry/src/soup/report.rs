@@ -220,20 +220,28 @@ impl MeshReport {
     }
 }
 
-/// A place in a sentence, four digits each.
+/// A place in a sentence.
 pub(super) struct Place(pub(super) [f64; 3]);
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.map(four_digits);
+        let [x, y, z] = self.0.map(seven_digits);
         write!(f, "({x}, {y}, {z})")
     }
 }
 
-/// Four digits are enough to find a place by.
+/// Four digits are enough for a size.
 pub(crate) fn four_digits(x: f64) -> f64 {
     if x == 0.0 || !x.is_finite() {
         return x;
     }
     format!("{x:.3e}").parse().unwrap_or(x)
+}
+
+/// As many digits as an STL file has tell places apart that are far from the origin.
+pub(crate) fn seven_digits(x: f64) -> f64 {
+    if x == 0.0 || !x.is_finite() {
+        return x;
+    }
+    format!("{x:.6e}").parse().unwrap_or(x)
 }

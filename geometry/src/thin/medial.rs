@@ -151,7 +151,11 @@ impl<const D: usize> Set<'_, D> {
     fn settle(&mut self) -> Result<(), GeometryError> {
         let power = 2.0 / (D as f64 - 1.0);
         let is_endless = self.body.window().is_some();
-        let rounds = if is_endless { ROUNDS_WITHOUT_ENDS } else { ROUNDS };
+        let rounds = if is_endless {
+            ROUNDS_WITHOUT_ENDS
+        } else {
+            ROUNDS
+        };
         let mut moves = vec![[0.0; D]; self.free.len()];
         for round in 0..rounds {
             // The last ones come to rest.

@@ -13,9 +13,7 @@ mod tests;
 use std::sync::Arc;
 use std::time::Instant;
 
-use sphpack_geometry::{
-    Closest, Feature, GeometryError, Surface, SurfaceSamples, sample_thin,
-};
+use sphpack_geometry::{Closest, Feature, GeometryError, Surface, SurfaceSamples, sample_thin};
 use sphpack_neighbors::point;
 
 use crate::course::Course;

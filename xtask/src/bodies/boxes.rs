@@ -94,7 +94,11 @@ impl Shape {
                 format!("box = {{ min = {}, max = {} }}", list(low), list(high))
             }
             Self::Rod(a, b, r) => {
-                format!("cylinder = {{ start = {}, end = {}, radius = {r:?} }}", list(a), list(b))
+                format!(
+                    "cylinder = {{ start = {}, end = {}, radius = {r:?} }}",
+                    list(a),
+                    list(b)
+                )
             }
         }
     }
@@ -183,8 +187,7 @@ impl Boxed {
 
     /// Whether the body or an image of it holds a place.
     fn holds(&self, p: [f64; 3]) -> bool {
-        (self.shifts.iter())
-            .any(|shift| self.shape.holds(std::array::from_fn(|k| p[k] + shift[k])))
+        (self.shifts.iter()).any(|shift| self.shape.holds(std::array::from_fn(|k| p[k] + shift[k])))
     }
 
     /// What of the box the body has.
@@ -200,8 +203,9 @@ impl Boxed {
                     let cell = [i, j, k];
                     // Not in the middle of every cell, where faces along the axes would be seen all or not at all.
                     number += 1.0;
-                    let mut p: [f64; 3] =
-                        std::array::from_fn(|a| (cell[a] as f64 + (number * STEPS[a]).fract()) * step[a]);
+                    let mut p: [f64; 3] = std::array::from_fn(|a| {
+                        (cell[a] as f64 + (number * STEPS[a]).fract()) * step[a]
+                    });
                     if self.dimension == 2 {
                         p[2] = 0.0;
                     }
@@ -224,9 +228,10 @@ impl Boxed {
         let (mut out, mut strayed, mut sunk) = (0, 0, 0);
         for &i in &inner {
             let p = table.position[i];
-            out += usize::from((0..self.dimension).any(|k| {
-                p[k] < -1e-9 * self.max[k] || p[k] > (1.0 + 1e-9) * self.max[k]
-            }));
+            out += usize::from(
+                (0..self.dimension)
+                    .any(|k| p[k] < -1e-9 * self.max[k] || p[k] > (1.0 + 1e-9) * self.max[k]),
+            );
             if table.body[i].is_some() {
                 volume += table.volume[i];
                 strayed += usize::from(!self.holds(p));
@@ -257,7 +262,11 @@ impl Boxed {
                 let square: f64 = (0..self.dimension)
                     .map(|k| {
                         let d = (p[k] - q[k]).abs();
-                        let d = if self.periodic[k] { d.min(self.max[k] - d) } else { d };
+                        let d = if self.periodic[k] {
+                            d.min(self.max[k] - d)
+                        } else {
+                            d
+                        };
                         d * d
                     })
                     .sum();
@@ -282,7 +291,11 @@ impl Boxed {
         self.holds(p)
             && (0..60).all(|n| {
                 let angle = TAU * f64::from(n) * 0.618_034;
-                let high = if self.dimension == 2 { 0.0 } else { f64::from(n) / 29.5 - 1.0 };
+                let high = if self.dimension == 2 {
+                    0.0
+                } else {
+                    f64::from(n) / 29.5 - 1.0
+                };
                 let flat = (1.0 - high * high).sqrt();
                 self.holds([
                     p[0] + far * flat * angle.cos(),
@@ -296,7 +309,11 @@ impl Boxed {
 /// A body in the plane, mostly one that passes a side.
 fn flat(random: &mut Random, max: [f64; 3], periodic: [bool; 3]) -> Shape {
     let across = usize::from(!periodic[0]);
-    let along = if periodic[0] { 0 } else { usize::from(periodic[1]) };
+    let along = if periodic[0] {
+        0
+    } else {
+        usize::from(periodic[1])
+    };
     match random.below(5) {
         0 => {
             let center = [0, 1, 2].map(|k| max[k] * random.between(-0.1, 1.1));
@@ -311,7 +328,10 @@ fn flat(random: &mut Random, max: [f64; 3], periodic: [bool; 3]) -> Shape {
                     .map(|k| {
                         let angle = turn + TAU * k as f64 / count as f64;
                         let radius = base * random.between(0.85, 1.15);
-                        [center[0] + radius * angle.cos(), center[1] + radius * angle.sin()]
+                        [
+                            center[0] + radius * angle.cos(),
+                            center[1] + radius * angle.sin(),
+                        ]
                     })
                     .collect(),
             )
@@ -322,7 +342,11 @@ fn flat(random: &mut Random, max: [f64; 3], periodic: [bool; 3]) -> Shape {
             let wave = random.between(0.0, 0.2);
             let periods = random.whole(1, 2) as f64;
             let phase = random.between(0.0, TAU);
-            let shift = if periodic[along] { random.between(-1.0, 1.0) } else { 0.0 };
+            let shift = if periodic[along] {
+                random.between(-1.0, 1.0)
+            } else {
+                0.0
+            };
             let count = 120;
             let mut points = Vec::new();
             for k in 0..=count {
@@ -358,7 +382,11 @@ fn flat(random: &mut Random, max: [f64; 3], periodic: [bool; 3]) -> Shape {
             let half = random.between(0.25, 0.5);
             let lean = random.between(-0.5, 0.5);
             let foot = max[0] * random.between(0.3, 0.7);
-            let high = if random.chance(0.5) { 1.6 * max[1] } else { 0.6 * max[1] };
+            let high = if random.chance(0.5) {
+                1.6 * max[1]
+            } else {
+                0.6 * max[1]
+            };
             let deep = -0.6 * max[1];
             let at = |y: f64| foot + lean * y;
             Shape::Polygon(vec![
@@ -373,7 +401,9 @@ fn flat(random: &mut Random, max: [f64; 3], periodic: [bool; 3]) -> Shape {
 
 /// A body in space.
 fn solid(random: &mut Random, max: [f64; 3], periodic: [bool; 3]) -> Shape {
-    let along = (0..3).find(|&k| periodic[k]).unwrap_or_else(|| random.below(3));
+    let along = (0..3)
+        .find(|&k| periodic[k])
+        .unwrap_or_else(|| random.below(3));
     match random.below(4) {
         0 => {
             let center = [0, 1, 2].map(|k| max[k] * random.between(-0.1, 1.1));
@@ -448,7 +478,10 @@ fn judge(boxed: &Boxed, number: usize, folder: &Path, row: &mut Row) -> Result<(
     let report = &outcome.report;
     if !(report.converged && report.audit.passed) {
         row.said += 1;
-        eprintln!("{} {number}: {}: {:?}", row.name, report.stop_reason, report.audit.messages);
+        eprintln!(
+            "{} {number}: {}: {:?}",
+            row.name, report.stop_reason, report.audit.messages
+        );
         return Ok(());
     }
     let faults = boxed.faults(&outcome);
@@ -456,7 +489,10 @@ fn judge(boxed: &Boxed, number: usize, folder: &Path, row: &mut Row) -> Result<(
     row.right += usize::from(faults.is_empty());
     row.even += usize::from(report.density.linf <= LINF && closest >= CLOSEST);
     if !(report.density.linf <= LINF && closest >= CLOSEST) {
-        eprintln!("{} {number}: L∞ {:.2e}, closest pair {closest:.3}", row.name, report.density.linf);
+        eprintln!(
+            "{} {number}: L∞ {:.2e}, closest pair {closest:.3}",
+            row.name, report.density.linf
+        );
     }
     row.worst[1] = row.worst[1].max(report.density.linf);
     row.worst[2] = row.worst[2].min(closest);
