@@ -13,6 +13,9 @@ use crate::scene::{Method, Role, Scene};
 /// How far beyond a side a body must reach to be told that it is cut there, in ∆s.
 const TOLD_OVER_SPACING: f64 = 1e-3;
 
+/// A part of a body smaller than this is none.
+const NOTHING: f64 = 1e-9;
+
 /// Solid bodies go on beyond the sides of the box that they pass, or lie on: there they have no surface. Gives a sentence for each
 /// that is cut. The published methods have no such bodies.
 pub(crate) fn go_on<const D: usize>(
@@ -55,7 +58,7 @@ where
             continue;
         };
         let (volume, whole) = (continued.volume(), built.surface.volume());
-        if volume <= 0.0 {
+        if volume <= NOTHING * whole {
             return Err(fail(format!(
                 "body \"{}\" lies outside the domain (body from {}); enlarge the domain, move the body, or leave it out",
                 body.name,

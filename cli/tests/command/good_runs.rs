@@ -100,7 +100,7 @@ fn a_cylinder_with_every_file() {
         ("residual", "max max_tangential mean rms"),
         (
             "seconds",
-            "forces geometry measuring neighbors output projection seeding total",
+            "forces geometry measuring minimiser neighbors output projection seeding total",
         ),
     ] {
         let mut found = keys(&report[table]);

@@ -208,6 +208,6 @@ fn thin_parts_hold_water() {
     );
     desk.refuse(
         &["pack", "hybrid.toml"],
-        &["hybrid.toml:8:", "\"strip\"", "watertight", "balanced"],
+        &["hybrid.toml:7:", "\"strip\"", "watertight", "balanced"],
     );
 }

@@ -150,6 +150,17 @@ pub(crate) fn common(one: &Loops, other: &Loops) -> Vec<Vec<[f64; 2]>> {
     without_slivers(shapes, size)
 }
 
+/// The boundary of what the first loops bound and the others do not; thin pieces and holes left out.
+pub(crate) fn without(one: &Loops, other: &Loops) -> Vec<Vec<[f64; 2]>> {
+    let size = one
+        .iter()
+        .map(|points| Bounds::of(points))
+        .reduce(Bounds::union)
+        .map_or(0.0, |bounds| bounds.diagonal());
+    let shapes = engine::overlay(one, other, OverlayRule::Difference, FillRule::NonZero);
+    without_slivers(shapes, size)
+}
+
 /// Whether both sets of loops, each as [`resolved`] gives them, have room in common: a piece of it, at least, that is not
 /// thin, as [`Outline::intersection`] measures it, in parts of `size`.
 pub(crate) fn have_common_room(one: &Loops, other: &Loops, size: f64) -> bool {

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeSet;
 
+use sphpack_neighbors::Bounds;
+
 use super::check::Survey;
 use super::join;
 use super::repair::{HoleLimit, Repair};
 use super::report::{DefectKind, MeshReport};
-use super::{Repaired, Soup};
+use super::{Repaired, Soup, cracks};
 use crate::mesh::triangle;
-use crate::{GeometryError, Mesh};
+use crate::{Bvh, GeometryError, Mesh};
 
 /// A body, and what was done to its triangles to make it one.
 #[derive(Debug, Clone)]
@@ -21,8 +23,8 @@ pub struct Mended {
 
 impl Soup {
     /// The body that the triangles bound: as they are where nothing is wrong, else after [`Soup::repaired`] (holes
-    /// within [`HoleLimit::Small`]), shells that overlap or touch joined, with what of them is inside others left
-    /// out. Crossings within a shell stay where the triangles have less than 1 % of the area. What was done is told.
+    /// within [`HoleLimit::Small`]), shells that overlap joined, with what of them is inside others left
+    /// out. Shells that touch along edges or in points stay as they are. Crossings within a shell stay where the triangles have less than 1 % of the area. What was done is told.
     ///
     /// # Errors
     /// [`GeometryError::Defective`] with every defect that is left and its cure, or what [`Mesh::new`] finds.
@@ -35,7 +37,7 @@ impl Soup {
     /// # Errors
     /// As [`Soup::body`].
     pub fn body_knowing(&self, report: &MeshReport) -> Result<Mended, GeometryError> {
-        if report.is_clean() {
+        if report.is_clean() && !may_be_flush(report) {
             let done = if self.welded > 0 {
                 vec![Repair::Welded(self.welded)]
             } else {
@@ -46,6 +48,17 @@ impl Soup {
         }
         self.repaired(HoleLimit::Small).body()
     }
+}
+
+/// Whether shells are so near each other that faces may lie on each other but for rounding, which is no defect: what
+/// is exact finds them apart.
+fn may_be_flush(report: &MeshReport) -> bool {
+    let all = (report.shells.iter()).fold(Bounds::EMPTY, |all, shell| all.union(shell.bounds));
+    let width = cracks::WIDTH * all.diagonal();
+    let boxes: Vec<Bounds<3>> = (report.shells.iter())
+        .map(|shell| shell.bounds.grown(width))
+        .collect();
+    boxes.len() > 1 && !Bvh::build(&boxes).pairs(&boxes, |_, _| true).is_empty()
 }
 
 impl Repaired {
@@ -65,7 +78,15 @@ impl Repaired {
         if is_there(&report, &UNMENDED) {
             return Err(defective(&report));
         }
-        if is_there(&report, &SEVERAL) {
+        let contact = report.defect(DefectKind::Contact).map(|contact| contact.count);
+        let overlap = is_there(&report, &[DefectKind::Overlap, DefectKind::Redundant]);
+        if let Some(count) = contact.filter(|_| !overlap && !soup.has_flush_walls()) {
+            // Along edges and in points: each shell is a body of its own there.
+            if join::reach_into_each_other(&soup) {
+                return Err(defective(&report));
+            }
+            done.push(Repair::LeftContacts(count));
+        } else if is_there(&report, &SEVERAL) {
             let survey = Survey::new(&soup);
             if let Some(joined) = join::join(&soup, &survey) {
                 let whole = joined.check();
@@ -77,13 +98,8 @@ impl Repaired {
                 if is_there(&report, &UNMENDED) || is_there(&report, &SEVERAL) {
                     return Err(defective(&report));
                 }
-            } else if is_there(&report, &[DefectKind::Overlap, DefectKind::Redundant]) {
+            } else {
                 return Err(defective(&report));
-            } else if let Some(contact) = report.defect(DefectKind::Contact) {
-                if join::reach_into_each_other(&soup) {
-                    return Err(defective(&report));
-                }
-                done.push(Repair::LeftContacts(contact.count));
             }
         }
         if let Some(crossings) = report.defect(DefectKind::SelfIntersection) {

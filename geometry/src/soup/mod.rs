@@ -2,9 +2,11 @@
 
 mod body;
 mod check;
+mod cracks;
 mod crossings;
 mod doubles;
 mod facing;
+mod flush;
 mod holes;
 mod join;
 mod pinches;

@@ -40,6 +40,10 @@ pub enum Repair {
     Turned(usize, usize),
     /// Shells faced the wrong way and were turned inside out; so many of so many.
     TurnedShells(usize, usize),
+    /// Edges that met corners of their neighbours in the middle were cut there: cracks of no width.
+    ClosedCracks(usize),
+    /// Faces that lay on each other and looked at each other were left out, as far as they did; so many walls.
+    DroppedFlush(usize),
     /// Edges at which wedges of the body touch, of four triangles or more, were parted into edges of two.
     Parted(usize),
     /// Holes were closed.
@@ -67,7 +71,7 @@ pub enum Repair {
         /// The first.
         place: [f64; 3],
     },
-    /// Shells that touch were left as they are.
+    /// Shells that touch along edges or in points were left as they are.
     LeftContacts(usize),
     /// The triangles were wrapped by [`Soup::wrapped`].
     Wrapped {
@@ -103,6 +107,18 @@ impl fmt::Display for Repair {
                 f,
                 "{n} of {of} shells were inside out: all their triangles were turned"
             ),
+            Self::ClosedCracks(n) => write!(
+                f,
+                "{n} open {} of no width {} closed",
+                if n == 1 { "crack" } else { "cracks" },
+                if n == 1 { "was" } else { "were" }
+            ),
+            Self::DroppedFlush(n) => write!(
+                f,
+                "{n} {} of no thickness, where faces lay on each other, {} left out",
+                if n == 1 { "wall" } else { "walls" },
+                if n == 1 { "was" } else { "were" }
+            ),
             Self::Parted(n) => write!(
                 f,
                 "{n} {} of four triangles or more, where the body touches itself, {} parted into edges of two",
@@ -135,7 +151,10 @@ impl fmt::Display for Repair {
                 Place(place)
             ),
             Self::LeftContacts(n) => {
-                write!(f, "{n} pairs of shells touch; they were left as they are")
+                write!(
+                    f,
+                    "{n} pairs of shells touch along edges or in points; they stay apart"
+                )
             }
             Self::Wrapped { cell, triangles } => write!(
                 f,
@@ -159,7 +178,7 @@ pub struct Repaired {
 
 impl Soup {
     /// Mends what can safely be mended: vertices that are nearly equal are welded, degenerate and doubled triangles
-    /// left out, triangles turned so that all agree, edges at which wedges of the body touch parted, and shells so that bodies face outward and cavities inward,
+    /// left out, triangles turned so that all agree, cracks of no width closed, walls between faces that lie on each other left out, edges at which wedges of the body touch parted, and shells so that bodies face outward and cavities inward,
     /// holes within `limit` closed by the triangles of least area over their rims. Shells that overlap stay as they
     /// are: [`Soup::body`] joins them.
     ///
@@ -174,6 +193,14 @@ impl Soup {
         soup.drop_degenerate(&mut done);
         soup.drop_doubles(&mut done);
         soup.turn_triangles(&mut done);
+        let cracks = soup.close_cracks();
+        if cracks > 0 {
+            done.push(Repair::ClosedCracks(cracks));
+        }
+        let walls = soup.drop_flush_walls();
+        if walls > 0 {
+            done.push(Repair::DroppedFlush(walls));
+        }
         let parted = soup.part_pinches();
         if parted > 0 {
             done.push(Repair::Parted(parted));

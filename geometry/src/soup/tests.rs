@@ -358,11 +358,12 @@ fn touching_shells_become_one() {
         1e-4,
     );
     // A smaller box on a side.
-    joins(
-        &[&unit, &cuboid([1.0, 0.2, 0.3], [2.0, 0.8, 0.9])],
-        1.36,
-        1e-4,
-    );
+    let body = joined(&[&unit, &cuboid([1.0, 0.2, 0.3], [2.0, 0.8, 0.9])])
+        .body()
+        .unwrap();
+    assert_eq!(body.done, [Repair::DroppedFlush(1)]);
+    assert!((body.mesh.volume() - 1.36).abs() < 1e-12);
+    assert!((body.mesh.measure() - 8.4).abs() < 1e-12);
     // The same box again, its sides cut otherwise: the edges have four triangles, and nothing tells which go together.
     let same: Vec<[[f64; 3]; 3]> = unit
         .iter()
