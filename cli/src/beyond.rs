@@ -80,9 +80,8 @@ fn drawn<const D: usize>(
         [domain.bounds.max, around.max],
     );
     let [a, b, c, d] = [side(0, low), side(1, low), side(0, high), side(1, high)];
-    let part = Outline::new(loops.clone()).and_then(|all| {
-        Ok(all.intersection(&Outline::polygon(&[[a, b], [c, b], [c, d], [a, d]])?))
-    });
+    let part = Outline::new(loops.clone())
+        .and_then(|all| Ok(all.intersection(&Outline::polygon(&[[a, b], [c, b], [c, d], [a, d]])?)));
     match part {
         Ok(Some(part)) => part.loops().map(<[_]>::to_vec).collect(),
         _ => loops,
@@ -90,7 +89,11 @@ fn drawn<const D: usize>(
 }
 
 /// The open sides that a body passes by more than `slack`, in words.
-fn passed<const D: usize>(bounds: &Bounds<D>, domain: &Domain<D>, slack: f64) -> Vec<String> {
+fn passed<const D: usize>(
+    bounds: &Bounds<D>,
+    domain: &Domain<D>,
+    slack: f64,
+) -> Vec<String> {
     let mut sides = Vec::new();
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(D) {
         if domain.periodic[axis] {

@@ -82,7 +82,8 @@ pub(crate) fn sort<const D: usize>(
                 keep[i] = sits_on == Some(void) && is_exact;
                 if keep[i] {
                     let around = |&solid: &u16| {
-                        role(solid) == Role::Solid && surface(solid).inside(particles.position[i])
+                        role(solid) == Role::Solid
+                            && surface(solid).inside(particles.position[i])
                     };
                     labels.body[i] = holders.iter().copied().find(around);
                 }

@@ -44,9 +44,7 @@ impl<const D: usize> Repeated<D> {
         let mut step: [i8; D] = std::array::from_fn(|k| -steps(k));
         loop {
             if step != [0; D] {
-                shifts.push(std::array::from_fn(|k| {
-                    own[k] + f64::from(step[k]) * size[k]
-                }));
+                shifts.push(std::array::from_fn(|k| own[k] + f64::from(step[k]) * size[k]));
             }
             let Some(axis) = (0..D).rev().find(|&k| step[k] < steps(k)) else {
                 break;

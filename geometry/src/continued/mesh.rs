@@ -12,11 +12,11 @@ use self::contents::pieces_in;
 use self::moved::Moved;
 use super::window::{holds, part_of_way};
 use super::{Continued, Reach, Whole, groups_of_images, into, is_moved, moved_by, slack, snapped};
-use crate::GeometryError;
 use crate::mesh::{Mesh, triangle};
 use crate::sample::{Candidates, spread};
 use crate::soup::Soup;
 use crate::surface::{Closest, Features, Surface};
+use crate::GeometryError;
 
 /// Pieces of a mesh within the box with less volume than this, in parts of the box's, are none.
 const NOTHING: f64 = 1e-12;
@@ -50,8 +50,7 @@ impl Mesh {
                 .collect(),
             triangles: self.triangles().to_vec(),
         };
-        net.triangles
-            .retain(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
+        net.triangles.retain(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
         let mut goes_on = reach.iter().any(|reach| reach.periods > 0);
         for axis in (0..3).filter(|&axis| !domain.periodic[axis]) {
             goes_on |= reach[axis].passes != [false; 2];
@@ -124,12 +123,7 @@ impl Net {
     }
 
     /// The body and its images along a periodic axis, joined where they meet.
-    fn with_images(
-        self,
-        domain: &Domain<3>,
-        axis: usize,
-        reach: Reach,
-    ) -> Result<Self, GeometryError> {
+    fn with_images(self, domain: &Domain<3>, axis: usize, reach: Reach) -> Result<Self, GeometryError> {
         let (min, max) = (domain.bounds.min[axis], domain.bounds.max[axis]);
         let count = reach.periods.max(1) as i32;
         let images = |between: &dyn Fn(&[u32; 3], i32) -> bool| {

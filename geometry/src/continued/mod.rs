@@ -104,11 +104,7 @@ impl<const D: usize> Continued<D> {
     }
 
     /// What the whole body answers to a place, carried to it.
-    fn carried(
-        &self,
-        p: [f64; D],
-        ask: impl Fn([f64; D]) -> Option<Closest<D>>,
-    ) -> Option<Closest<D>> {
+    fn carried(&self, p: [f64; D], ask: impl Fn([f64; D]) -> Option<Closest<D>>) -> Option<Closest<D>> {
         let wrapped = self.domain.wrap(p);
         let back = point::sub(p, wrapped);
         ask(wrapped).map(|hit| Closest {
@@ -255,7 +251,9 @@ fn groups_of_images<const D: usize>(
 ) -> Vec<Vec<usize>> {
     let size = domain.bounds.size();
     let shifts: Vec<[f64; D]> = (0..3_usize.pow(D as u32))
-        .map(|number| std::array::from_fn(|k| (number / 3_usize.pow(k as u32) % 3) as f64 - 1.0))
+        .map(|number| {
+            std::array::from_fn(|k| (number / 3_usize.pow(k as u32) % 3) as f64 - 1.0)
+        })
         .filter(|step: &[f64; D]| (0..D).all(|k| step[k] == 0.0 || domain.periodic[k]))
         .map(|step| std::array::from_fn(|k| step[k] * size[k]))
         .collect();

@@ -110,11 +110,7 @@ fn with_images(loops: &[Loop], domain: &Domain<2>, axis: usize, periods: usize) 
             p[axis] = moved_by(p[axis], step, [min[axis], max[axis]]);
             p
         };
-        all.extend(
-            loops
-                .iter()
-                .map(|points| -> Loop { points.iter().map(moved).collect() }),
-        );
+        all.extend(loops.iter().map(|points| -> Loop { points.iter().map(moved).collect() }));
     }
     all
 }
@@ -148,13 +144,11 @@ impl Outline {
             let parts: Vec<Option<[f64; 2]>> = (0..count)
                 .map(|i| part_of_way(points[i], points[(i + 1) % count], domain))
                 .collect();
-            let is_corner =
-                |i: usize| corners[first + i % count] && holds(points[i % count], domain, slack);
+            let is_corner = |i: usize| corners[first + i % count] && holds(points[i % count], domain, slack);
             // Goes on without a break from the side before.
             let joins = |i: usize| {
                 let before = parts[(i + count - 1) % count];
-                before.is_some_and(|part| part[1] == 1.0)
-                    && parts[i % count].is_some_and(|part| part[0] == 0.0)
+                before.is_some_and(|part| part[1] == 1.0) && parts[i % count].is_some_and(|part| part[0] == 0.0)
             };
             let begins = (0..count).filter(|&i| parts[i].is_some() && !joins(i));
             let mut is_broken = false;
@@ -162,23 +156,14 @@ impl Outline {
                 is_broken = true;
                 let place = |i: usize, t: f64| {
                     let (a, b) = (points[i % count], points[(i + 1) % count]);
-                    if t == 1.0 {
-                        b
-                    } else {
-                        point::add_scaled(a, t, point::sub(b, a))
-                    }
+                    if t == 1.0 { b } else { point::add_scaled(a, t, point::sub(b, a)) }
                 };
-                let mut ring = Ring {
-                    is_open: true,
-                    ..Ring::default()
-                };
+                let mut ring = Ring { is_open: true, ..Ring::default() };
                 let start = parts[begin].map_or(0.0, |part| part[0]);
                 ring.points.push(place(begin, start));
                 ring.corner.push(false);
                 for i in begin..begin + count {
-                    let Some([_, to]) = parts[i % count] else {
-                        break;
-                    };
+                    let Some([_, to]) = parts[i % count] else { break };
                     ring.points.push(place(i, to));
                     let goes_on = i + 1 < begin + count && joins(i + 1);
                     ring.corner.push(goes_on && is_corner(i + 1));
@@ -249,9 +234,7 @@ impl Whole<2> for Outline {
         }
         (groups.into_iter())
             .map(|group| {
-                let loops = group
-                    .into_iter()
-                    .flat_map(|i| parts[i].loops().map(<[_]>::to_vec));
+                let loops = group.into_iter().flat_map(|i| parts[i].loops().map(<[_]>::to_vec));
                 Arc::new(Self::assemble(loops.collect())) as Arc<dyn Whole<2>>
             })
             .collect()

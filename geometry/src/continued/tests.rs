@@ -15,19 +15,9 @@ fn rectangle(min: [f64; 2], max: [f64; 2]) -> Outline {
 }
 
 fn brick(min: [f64; 3], max: [f64; 3]) -> Mesh {
-    let corner =
-        |bits: usize| std::array::from_fn(|k| if bits >> k & 1 == 1 { max[k] } else { min[k] });
-    let sides = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let triangles = sides
-        .iter()
-        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    let corner = |bits: usize| std::array::from_fn(|k| if bits >> k & 1 == 1 { max[k] } else { min[k] });
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
     Mesh::new((0..8).map(corner).collect(), triangles.collect()).unwrap()
 }
 
@@ -45,11 +35,7 @@ fn is_held<const D: usize>(body: &dyn Surface<D>, domain: &Domain<D>, p: [f64; D
 /// Places of the box, evenly strewn.
 fn places<const D: usize>(domain: &Domain<D>, count: usize) -> impl Iterator<Item = [f64; D]> {
     let (min, size) = (domain.bounds.min, domain.bounds.size());
-    let steps = [
-        0.754_877_666_246_693,
-        0.569_840_290_998_053,
-        0.438_579_021_203,
-    ];
+    let steps = [0.754_877_666_246_693, 0.569_840_290_998_053, 0.438_579_021_203];
     (0..count).map(move |i| {
         std::array::from_fn(|k| min[k] + size[k] * (0.5 + steps[k] * i as f64).fract())
     })
@@ -78,8 +64,7 @@ fn is_like_images<const D: usize>(
             };
             let far = 1e-7 * domain.bounds.diagonal();
             let is_off_sides = (0..D).all(|k| {
-                hit.point[k] - domain.bounds.min[k] > far
-                    && domain.bounds.max[k] - hit.point[k] > far
+                hit.point[k] - domain.bounds.min[k] > far && domain.bounds.max[k] - hit.point[k] > far
             });
             if is_off_sides {
                 assert!(beside(-far) && !beside(far), "{p:?}: {hit:?}");
@@ -88,10 +73,7 @@ fn is_like_images<const D: usize>(
     }
     let part = held as f64 / count as f64;
     let off = part - continued.volume() / domain.bounds.volume();
-    assert!(
-        off.abs() < 3.0 / (count as f64).sqrt() / 2.0,
-        "{part}: off by {off}"
-    );
+    assert!(off.abs() < 3.0 / (count as f64).sqrt() / 2.0, "{part}: off by {off}");
 }
 
 fn star(center: [f64; 2], radii: &[f64], turn: f64) -> Outline {
@@ -196,11 +178,7 @@ proptest! {
 fn what_lies_free_or_touches_in_a_point_stays() {
     for periodic in [[false; 2], [true; 2], [true, false]] {
         let domain = plane([0.0; 2], [4.0, 2.0], periodic);
-        assert!(
-            rectangle([1.0, 0.5], [2.0, 1.5])
-                .continued(&domain)
-                .is_none()
-        );
+        assert!(rectangle([1.0, 0.5], [2.0, 1.5]).continued(&domain).is_none());
     }
     let closed = plane([0.0; 2], [4.0, 2.0], [false; 2]);
     let diamond = Outline::polygon(&[[1.0, 0.0], [2.0, 1.0], [1.0, 2.0], [0.0, 1.0]]).unwrap();
@@ -214,9 +192,7 @@ fn what_lies_free_or_touches_in_a_point_stays() {
 fn the_whole_box_has_no_surface() {
     for periodic in [[false; 2], [true; 2], [true, false]] {
         let domain = plane([-1.0, 0.0], [3.0, 2.0], periodic);
-        let body = rectangle([-1.0, 0.0], [3.0, 2.0])
-            .continued(&domain)
-            .unwrap();
+        let body = rectangle([-1.0, 0.0], [3.0, 2.0]).continued(&domain).unwrap();
         assert_eq!(body.measure(), 0.0);
         assert!((body.volume() - 8.0).abs() < 1e-12);
         assert!(body.closest([1.0, 1.0]).distance < -1.0);
@@ -228,10 +204,7 @@ fn the_whole_box_has_no_surface() {
     let domain = Domain::new([0.0; 3], [1.0, 2.0, 3.0]);
     for periodic in [[false; 3], [true; 3], [false, true, false]] {
         let domain = domain.with_periodic(periodic);
-        let body = brick([0.0; 3], [1.0, 2.0, 3.0])
-            .continued(&domain)
-            .unwrap()
-            .unwrap();
+        let body = brick([0.0; 3], [1.0, 2.0, 3.0]).continued(&domain).unwrap().unwrap();
         assert!(body.measure() < 1e-12 && (body.volume() - 6.0).abs() < 1e-12);
         let inset = body.inset(0.1).unwrap();
         assert!(inset.measure() < 1e-12 && (inset.volume() - 6.0).abs() < 1e-12);
@@ -256,11 +229,7 @@ fn pieces_that_meet_across_the_seam_are_one_part() {
     assert!((continued.measure() - (body.measure() - 2.0)).abs() < 1e-12);
     // Another one apart.
     let disc = star([2.0, 1.0], &[0.3; 30], 0.0);
-    let loops = body
-        .loops()
-        .chain(disc.loops())
-        .map(<[_]>::to_vec)
-        .collect();
+    let loops = body.loops().chain(disc.loops()).map(<[_]>::to_vec).collect();
     let both = Outline::new(loops).unwrap().continued(&domain).unwrap();
     let mut volumes: Vec<f64> = both.parts().iter().map(|part| part.volume()).collect();
     volumes.sort_by(f64::total_cmp);
@@ -272,9 +241,7 @@ fn pieces_that_meet_across_the_seam_are_one_part() {
 #[test]
 fn thin_floors_get_one_layer() {
     let domain = plane([0.0; 2], [4.0, 2.0], [true, false]);
-    let plate = rectangle([0.0, 1.0], [4.0, 1.05])
-        .continued(&domain)
-        .unwrap();
+    let plate = rectangle([0.0, 1.0], [4.0, 1.05]).continued(&domain).unwrap();
     let found = sample_particles(&plate, plate.inset(0.05).ok().as_deref(), 0.1, 0.05).unwrap();
     assert_eq!(found.on_surface.len() + found.medial.len(), 20);
     let mut along: Vec<f64> = found.medial.iter().map(|p| p[0]).collect();
@@ -288,10 +255,7 @@ fn thin_floors_get_one_layer() {
 /// Volume and area of the part of a ball above height `h`.
 fn cap(radius: f64, h: f64) -> (f64, f64) {
     let high = radius - h;
-    (
-        PI * high * high * (3.0 * radius - high) / 3.0,
-        TAU * radius * high,
-    )
+    (PI * high * high * (3.0 * radius - high) / 3.0, TAU * radius * high)
 }
 
 #[test]
@@ -305,16 +269,8 @@ fn a_ball_through_the_floor() {
             let (volume, area) = cap(1.0 - depth, height);
             // Where the side is aslant the expansion is of first order.
             let within = 1e-3 + TAU * height.abs() * depth * depth / area;
-            assert!(
-                (moved.volume() / volume - 1.0).abs() < within,
-                "{height} {depth}: {} {volume}",
-                moved.volume()
-            );
-            assert!(
-                (moved.measure() / area - 1.0).abs() < within,
-                "{height} {depth}: {} {area}",
-                moved.measure()
-            );
+            assert!((moved.volume() / volume - 1.0).abs() < within, "{height} {depth}: {} {volume}", moved.volume());
+            assert!((moved.measure() / area - 1.0).abs() < within, "{height} {depth}: {} {area}", moved.measure());
         }
         is_like_images(&body, &ball, &domain, 2000);
         let moved = body.inset(0.05).unwrap();
@@ -351,21 +307,10 @@ fn pipes_are_endless() {
         let mut along = [0.0; 3];
         along[axis] = 2.0;
         let ends = [[0.5; 3], point::add([0.5; 3], along)];
-        let pipe = Cylinder::new(ends[0], ends[1], 0.4)
-            .unwrap()
-            .mesh(1e-4)
-            .unwrap();
+        let pipe = Cylinder::new(ends[0], ends[1], 0.4).unwrap().mesh(1e-4).unwrap();
         // Cut ends that single precision has moved.
         let moved: Vec<[f64; 3]> = (pipe.vertices().iter())
-            .map(|v| {
-                v.map(|x| {
-                    if is_mesh_of_two {
-                        f64::from(x as f32)
-                    } else {
-                        x
-                    }
-                })
-            })
+            .map(|v| v.map(|x| if is_mesh_of_two { f64::from(x as f32) } else { x }))
             .collect();
         let pipe = Mesh::new(moved, pipe.triangles().to_vec()).unwrap();
         let (mut low, mut high) = ([0.0; 3], [1.0; 3]);
@@ -376,16 +321,8 @@ fn pipes_are_endless() {
         for depth in [0.0, 0.05, 0.2] {
             let moved = body.inset(depth).unwrap();
             let r = 0.4 - depth;
-            assert!(
-                (moved.volume() / (TAU * r * r) - 1.0).abs() < 2e-3,
-                "{depth}: {}",
-                moved.volume()
-            );
-            assert!(
-                (moved.measure() / (2.0 * TAU * r) - 1.0).abs() < 2e-3,
-                "{depth}: {}",
-                moved.measure()
-            );
+            assert!((moved.volume() / (TAU * r * r) - 1.0).abs() < 2e-3, "{depth}: {}", moved.volume());
+            assert!((moved.measure() / (2.0 * TAU * r) - 1.0).abs() < 2e-3, "{depth}: {}", moved.measure());
         }
         let moved = body.inset(0.05).unwrap();
         let count = (moved.measure() / 0.01).round() as usize;
@@ -402,38 +339,24 @@ fn edges_go_on_without_corners() {
     // A bar along x, with its edges, in an endless duct; and the same ending on two open sides.
     let bar = brick([0.0, 0.3, 0.3], [2.0, 0.8, 0.8]);
     for is_periodic in [true, false] {
-        let domain =
-            Domain::new([0.0; 3], [2.0, 1.0, 1.0]).with_periodic([is_periodic, false, false]);
+        let domain = Domain::new([0.0; 3], [2.0, 1.0, 1.0]).with_periodic([is_periodic, false, false]);
         let body = bar.continued(&domain).unwrap().unwrap();
         for depth in [0.0, 0.05] {
             let moved = body.inset(depth).unwrap();
             let wide = 0.5 - 2.0 * depth;
-            assert!(
-                (moved.volume() - 2.0 * wide * wide).abs() < 1e-9,
-                "{}",
-                moved.volume()
-            );
-            assert!(
-                (moved.measure() - 8.0 * wide).abs() < 1e-9,
-                "{}",
-                moved.measure()
-            );
+            assert!((moved.volume() - 2.0 * wide * wide).abs() < 1e-9, "{}", moved.volume());
+            assert!((moved.measure() - 8.0 * wide).abs() < 1e-9, "{}", moved.measure());
             let features = moved.features();
             assert!(features.corners.is_empty(), "{features:?}");
             let length = |edge: &Vec<[f64; 3]>| {
-                edge.windows(2)
-                    .map(|pair| point::distance(pair[0], pair[1]))
-                    .sum::<f64>()
+                edge.windows(2).map(|pair| point::distance(pair[0], pair[1])).sum::<f64>()
             };
             let total: f64 = features.edges.iter().map(length).sum();
             assert!((total - 8.0).abs() < 1e-6, "{total} {features:?}");
         }
         let moved = body.inset(0.05).unwrap();
         let samples = moved.sample(320).unwrap();
-        let on_edge = samples
-            .iter()
-            .filter(|site| site.feature == crate::Feature::Edge)
-            .count();
+        let on_edge = samples.iter().filter(|site| site.feature == crate::Feature::Edge).count();
         assert_eq!(on_edge, 4 * 20);
         let [least, most] = evenness(&samples, &domain);
         assert!(least > 0.7 && most < 1.3, "{least} {most}");
@@ -443,15 +366,8 @@ fn edges_go_on_without_corners() {
 #[test]
 fn turned_shells_meet_their_images_or_pass_open_sides() {
     let turn = Similarity::<3>::new(1.0, [0.3, 1.0, 0.2], 33.0, [0.4, 0.2, 0.6]).unwrap();
-    let body = brick([-0.4, -0.3, -0.5], [0.5, 0.4, 0.6])
-        .transformed(&turn)
-        .unwrap();
-    for periodic in [
-        [false; 3],
-        [true, false, false],
-        [true, true, false],
-        [true; 3],
-    ] {
+    let body = brick([-0.4, -0.3, -0.5], [0.5, 0.4, 0.6]).transformed(&turn).unwrap();
+    for periodic in [[false; 3], [true, false, false], [true, true, false], [true; 3]] {
         let domain = Domain::new([0.0; 3], [1.0, 0.9, 1.1]).with_periodic(periodic);
         let continued = body.continued(&domain).unwrap().unwrap();
         is_like_images(&continued, &body, &domain, 1000);

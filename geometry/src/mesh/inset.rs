@@ -100,7 +100,11 @@ pub(crate) fn width(mesh: &Mesh, t: usize, k: usize) -> f64 {
 }
 
 /// c of [`inset`] for a vertex with flat faces; `None` where it is not that simple.
-fn corner_term(mesh: &Mesh, across: &[[(u32, u8); 3]], (t, k): (usize, usize)) -> Option<f64> {
+fn corner_term(
+    mesh: &Mesh,
+    across: &[[(u32, u8); 3]],
+    (t, k): (usize, usize),
+) -> Option<f64> {
     // Around the vertex over the sides that leave it: angle of each triangle, and what lies beyond its side.
     let mut ring: Vec<(f64, f64, f64)> = Vec::new();
     let (mut at, mut corner) = (t, k);

@@ -143,12 +143,7 @@ pub(super) fn runs_of<const D: usize>(
         };
         let ends = starts[1..].iter().copied().chain([line.length()]);
         let mut runs: Vec<Run> = std::iter::once(before)
-            .chain(
-                starts
-                    .iter()
-                    .zip(ends)
-                    .map(|(&start, end)| run(start, end, true)),
-            )
+            .chain(starts.iter().zip(ends).map(|(&start, end)| run(start, end, true)))
             .collect();
         if let Some(last) = runs.last_mut() {
             last.is_open[1] = true;

@@ -84,17 +84,18 @@ pub(crate) fn occupied<const D: usize, S: Surface<D> + ?Sized>(
 const AT_SIDE: f64 = 1e-6;
 
 /// Whether an edge begins, and ends, where it passes a side of a box.
-fn chain_passes<const D: usize>(chain: &Polyline<D>, window: Option<&Domain<D>>) -> [bool; 2] {
-    let Some(bounds) = window
-        .map(|window| window.bounds)
-        .filter(|_| !chain.is_closed())
-    else {
+fn chain_passes<const D: usize>(
+    chain: &Polyline<D>,
+    window: Option<&Domain<D>>,
+) -> [bool; 2] {
+    let Some(bounds) = window.map(|window| window.bounds).filter(|_| !chain.is_closed()) else {
         return [false; 2];
     };
     let slack = AT_SIDE * bounds.diagonal();
     let points = chain.points();
-    [points[0], points[points.len() - 1]]
-        .map(|p| (0..D).any(|k| p[k] - bounds.min[k] <= slack || bounds.max[k] - p[k] <= slack))
+    [points[0], points[points.len() - 1]].map(|p| {
+        (0..D).any(|k| p[k] - bounds.min[k] <= slack || bounds.max[k] - p[k] <= slack)
+    })
 }
 
 /// `p`, which is on or near a sharp edge that runs along `tangent`, put onto it: from within the wedge between the

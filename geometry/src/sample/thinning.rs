@@ -81,7 +81,11 @@ fn level(crowding: f64) -> f64 {
 }
 
 /// `a − b`, to the nearest image of `b` in a window.
-fn difference<const D: usize>(a: [f64; D], b: [f64; D], window: Option<&Domain<D>>) -> [f64; D] {
+fn difference<const D: usize>(
+    a: [f64; D],
+    b: [f64; D],
+    window: Option<&Domain<D>>,
+) -> [f64; D] {
     window.map_or_else(|| point::sub(a, b), |window| window.difference(a, b))
 }
 

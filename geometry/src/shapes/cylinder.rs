@@ -6,8 +6,8 @@ use std::sync::Arc;
 use sphpack_neighbors::{Bounds, point};
 
 use super::perpendicular;
-use crate::surface::{Closest, Feature, Features, Surface};
 use crate::{GeometryError, Mesh};
+use crate::surface::{Closest, Feature, Features, Surface};
 
 /// Sides of the polyline that stands for each rim in [`Surface::features`].
 const RIM_SIDES: usize = 360;
@@ -64,12 +64,7 @@ impl Cylinder {
             let out = point::add_scaled(point::scale(across, radius * cos), radius * sin, other);
             vertices.extend([self.start, self.end()].map(|middle| point::add(middle, out)));
             let [a, b] = [k, (k + 1) % sides].map(|k| 2 + 2 * k);
-            triangles.extend([
-                [0, b, a],
-                [1, a + 1, b + 1],
-                [a, b, b + 1],
-                [a, b + 1, a + 1],
-            ]);
+            triangles.extend([[0, b, a], [1, a + 1, b + 1], [a, b, b + 1], [a, b + 1, a + 1]]);
         }
         Mesh::new(vertices, triangles)
     }

@@ -31,8 +31,7 @@ impl<const D: usize> Walls<D> {
         let open: [bool; D] = self.domain.periodic.map(|periodic| !periodic);
         for &i in mobile {
             let p = &mut particles.position[i as usize];
-            let is_off =
-                (0..D).any(|k| open[k] && (p[k] <= bounds.min[k] || p[k] >= bounds.max[k]));
+            let is_off = (0..D).any(|k| open[k] && (p[k] <= bounds.min[k] || p[k] >= bounds.max[k]));
             if !is_off {
                 continue;
             }

@@ -24,8 +24,7 @@ impl Contents {
     pub(super) fn moved_in(&self, depth: f64) -> (f64, f64) {
         let area = self.area - depth * (2.0 * self.edges - self.rim - depth * self.vertices);
         let half = self.edges - 0.5 * self.rim;
-        let volume =
-            self.volume - depth * (self.area - depth * (half - depth * self.vertices / 3.0));
+        let volume = self.volume - depth * (self.area - depth * (half - depth * self.vertices / 3.0));
         (area.max(0.0), volume.clamp(0.0, self.volume.max(0.0)))
     }
 }
@@ -88,7 +87,8 @@ pub(super) fn of(mesh: &Mesh, domain: &Domain<3>) -> Contents {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
             if let Some([from, to]) = part_of_way(a, b, domain) {
                 // Every edge is met twice.
-                found.edges += 0.5 * (to - from) * point::distance(a, b) * inset::width(mesh, t, k);
+                found.edges +=
+                    0.5 * (to - from) * point::distance(a, b) * inset::width(mesh, t, k);
             }
         }
     }

@@ -34,13 +34,7 @@ impl Moved {
         })
     }
 
-    fn candidates(
-        &self,
-        domain: &Domain<3>,
-        spacing: f64,
-        count: usize,
-        search: crate::sample::Search,
-    ) -> Candidates<3> {
+    fn candidates(&self, domain: &Domain<3>, spacing: f64, count: usize, search: crate::sample::Search) -> Candidates<3> {
         let near = |p| self.inset.closest(p);
         Candidates::in_window(domain, &near, spacing, count, search)
     }
@@ -82,9 +76,7 @@ impl Surface<3> for Moved {
 
 impl Whole<3> for Moved {
     fn contents(&self, domain: &Domain<3>) -> (f64, f64) {
-        let contents = self
-            .contents
-            .get_or_init(|| contents::of(&self.mesh, domain));
+        let contents = self.contents.get_or_init(|| contents::of(&self.mesh, domain));
         contents.moved_in(self.depth)
     }
 
@@ -107,9 +99,7 @@ impl Whole<3> for Moved {
             let hit = self.inset.closest(*p);
             (*p, *n) = (hit.point, hit.normal);
         }
-        let kept: Vec<bool> = (found.point.iter())
-            .map(|&p| holds(p, domain, 0.0))
-            .collect();
+        let kept: Vec<bool> = (found.point.iter()).map(|&p| holds(p, domain, 0.0)).collect();
         let mut keep = kept.iter();
         found.point.retain(|_| keep.next().is_some_and(|k| *k));
         let mut keep = kept.iter();
