@@ -147,11 +147,8 @@ impl WholeFiles {
                     let name = hidden.with_extension("complete");
                     fs::rename(&hidden, &name).map(|()| name)
                 });
-                let name = name.unwrap_or(hidden);
-                // Its folder may have gone with it.
-                if is_there(&name) {
-                    kept.push(name);
-                }
+                // Under its hidden name a later run would take it away, and its folder may have gone with it.
+                kept.extend(name.ok());
                 drop(file);
             }
         }

@@ -14,7 +14,7 @@ use super::{garble, generate, in_parallel};
 use crate::{marks, root};
 
 /// A scene of a few hundred bytes must not take longer to be read or planned, on a slow machine.
-const MOST_TIME: Duration = Duration::from_secs(5);
+const MOST_TIME: Duration = Duration::from_secs(10);
 
 /// What hangs ends the process.
 const HANGS: Duration = Duration::from_secs(60);

@@ -195,7 +195,7 @@ pub(super) fn bomb(desk: &Desk<'_>, random: &mut Random) -> Result<Outcome, Stri
     let ended = desk.run(run)?;
     ended.is_decent()?;
     ended.refused(&["a.npz"])?;
-    if ended.seconds > 10.0 {
+    if ended.seconds > 30.0 {
         return Err(format!("{count} zeros take {:.1} s", ended.seconds));
     }
     Ok(Outcome::Refused)
