@@ -55,6 +55,7 @@ impl Cloud {
     /// # Errors
     /// [`Error::Input`] where the file cannot be used.
     pub fn read(path: &Path, spacing: f64) -> Result<Self, Error> {
+        check_memory(path)?;
         let columns = Columns::read(path)?;
         let missing = |name: &str| {
             Error::input(
@@ -226,7 +227,7 @@ impl Cloud {
             .into_iter()
             .map(|edge| (2.0 * support / edge.max(f64::MIN_POSITIVE)).min(1.0))
             .product();
-        let bytes = number * (number * share).max(1.0) * 4.0;
+        let bytes = number * ((number * share).max(1.0) * 4.0 + MEASURED_BYTES);
         if bytes <= available_bytes() {
             return Ok(());
         }
@@ -287,4 +288,31 @@ fn volumes(columns: &Columns, path: &Path) -> Result<Option<Vec<f64>>, Error> {
             ),
         )),
     }
+}
+
+/// What one particle takes while it is measured, its neighbours left out, bytes.
+const MEASURED_BYTES: f64 = 150.0;
+
+/// What a byte of a particle file comes to, with its columns and what is made of them.
+const BYTES_PER_BYTE: f64 = 4.0;
+
+/// Refuses a file that would not fit into memory with all that is made of it: nothing could be said once it runs out.
+fn check_memory(path: &Path) -> Result<(), Error> {
+    // What is no file, or too long for any memory, is told by who reads it.
+    let meta = std::fs::metadata(path).ok();
+    let file = meta.filter(|meta| meta.is_file() && meta.len() <= crate::files::MAX_INPUT);
+    let size = file.map_or(0, |meta| meta.len());
+    let (needed, free) = (BYTES_PER_BYTE * size as f64, available_bytes());
+    if needed <= free {
+        return Ok(());
+    }
+    let mebibytes = |bytes: f64| bytes / 1_048_576.0;
+    Err(Error::input(
+        path,
+        format!(
+            "measuring it takes about {:.0} MiB of memory, more than the {:.0} MiB allowed; where limits of the process leave so little (ulimit -v), fewer threads leave more (RAYON_NUM_THREADS=1 in the environment)",
+            mebibytes(needed),
+            mebibytes(free)
+        ),
+    ))
 }

@@ -78,6 +78,9 @@ pub enum Error {
     System(String),
 }
 
+/// What there is where a file could not be written, and nothing else was complete.
+const NOTHING_LEFT: &str = "nothing was left behind";
+
 /// ":line:column", as far as known.
 fn place(at: Option<(usize, usize)>) -> String {
     match at {
@@ -121,8 +124,13 @@ impl Error {
         Self::Write {
             path: path.to_owned(),
             reason: reason.to_string(),
-            left: "nothing was left behind".into(),
+            left: NOTHING_LEFT.into(),
         }
+    }
+
+    /// Whether nothing is left of what was to be written.
+    pub(crate) fn is_all_lost(&self) -> bool {
+        matches!(self, Self::Write { left, .. } if left == NOTHING_LEFT)
     }
 
     /// An [`Error::Write`] that says which files are kept under other names, and which have not got their names back:

@@ -6,34 +6,52 @@ use std::path::Path;
 /// Where the system does not say how much memory there is.
 const FALLBACK_BYTES: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
 
+/// Address space that glibc keeps for each thread's own heap, bytes. A thread that gets none takes a page for every
+/// little thing, and is soon out of memory where there is some.
+const THREAD_HEAP_BYTES: u64 = 64 << 20;
+
 /// Memory that can be had without swapping and within this process's limits, bytes. Reads a few small files.
 pub(crate) fn available_bytes() -> f64 {
-    available_in(Path::new("/"))
+    available_in(Path::new("/"), || {
+        // One waits for Ctrl-C; and a heap takes twice its size for a moment.
+        (rayon::current_num_threads() as u64 + 2) * THREAD_HEAP_BYTES
+    })
 }
 
-/// The same, of a system whose files are below `root`.
-fn available_in(root: &Path) -> f64 {
+/// The same, of a system whose files are below `root`, where threads want so much address space.
+fn available_in(root: &Path, of_threads: impl Fn() -> u64) -> f64 {
     let machine = kibibytes(root, "proc/meminfo", "MemAvailable:").map(|bytes| bytes as f64);
-    [limited(root), unified_group(root), memory_group(root)]
+    let limited = limited(root, of_threads);
+    [limited, unified_group(root), memory_group(root)]
         .into_iter()
         .flatten()
         .fold(machine.unwrap_or(FALLBACK_BYTES), f64::min)
 }
 
 /// What the limits of the process itself leave (ulimit -v, ulimit -d).
-fn limited(root: &Path) -> Option<f64> {
-    let limits = fs::read_to_string(root.join("proc/self/limits")).ok()?;
+fn limited(root: &Path, of_threads: impl Fn() -> u64) -> Option<f64> {
     let left = |limit: &str, used: &str| {
-        let line = limits.lines().find_map(|line| line.strip_prefix(limit))?;
-        // "unlimited" is no number.
-        let most: u64 = line.split_whitespace().next()?.parse().ok()?;
-        let used = kibibytes(root, "proc/self/status", used).unwrap_or(0);
-        Some(most.saturating_sub(used) as f64)
+        let most = soft_limit(root, limit)?;
+        Some(most.saturating_sub(kibibytes(root, "proc/self/status", used).unwrap_or(0)))
     };
+    let space = left("Max address space", "VmSize:");
     least([
-        left("Max address space", "VmSize:"),
-        left("Max data size", "VmData:"),
+        space.map(|bytes| bytes.saturating_sub(of_threads()) as f64),
+        left("Max data size", "VmData:").map(|bytes| bytes as f64),
     ])
+}
+
+/// The longest file that this process may write (ulimit -f), bytes; `None` where there is no limit, or nobody says.
+pub(crate) fn longest_file() -> Option<u64> {
+    soft_limit(Path::new("/"), "Max file size")
+}
+
+/// A limit of this process, by its name in the system's list.
+fn soft_limit(root: &Path, name: &str) -> Option<u64> {
+    let limits = fs::read_to_string(root.join("proc/self/limits")).ok()?;
+    let line = limits.lines().find_map(|line| line.strip_prefix(name))?;
+    // "unlimited" is no number.
+    line.split_whitespace().next()?.parse().ok()
 }
 
 /// What control groups of version 2 leave: the process's own, and all that this one is in.
@@ -131,7 +149,7 @@ mod tests {
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, content).unwrap();
         }
-        assert_eq!(available_in(root.path()), expected);
+        assert_eq!(available_in(root.path(), || 24_000), expected);
     }
 
     const FREE: (&str, &str) = (
@@ -160,7 +178,7 @@ mod tests {
         };
         for (size, data, expected) in [
             ("unlimited", "unlimited", FREE_BYTES),
-            ("2048000", "unlimited", 1_024_000.0),
+            ("2048000", "unlimited", 1_000_000.0),
             ("2048000", "1024000", 512_000.0),
             // More is used already than may be.
             ("1000", "unlimited", 0.0),

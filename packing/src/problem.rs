@@ -160,7 +160,7 @@ pub enum PackingError {
         method: &'static str,
     },
     /// More particles than fit.
-    #[error("about {particles:.3e} particles would need {:.1} GiB, more than the {:.1} GiB allowed; use a larger spacing or a smaller domain", *.needed_bytes / 1_073_741_824.0, *.allowed_bytes / 1_073_741_824.0)]
+    #[error("about {particles:.3e} particles would need {} of memory, more than the {} allowed; use a larger spacing or a smaller domain{}", size(*.needed_bytes), size(*.allowed_bytes), little(*.allowed_bytes))]
     TooLarge {
         /// Particles, frozen included.
         particles: f64,
@@ -177,6 +177,26 @@ pub enum PackingError {
         /// What is wrong.
         source: GeometryError,
     },
+}
+
+const GIBIBYTE: f64 = 1_073_741_824.0;
+
+/// An amount of memory in words.
+fn size(bytes: f64) -> String {
+    if bytes < GIBIBYTE {
+        format!("{:.0} MiB", bytes / 1_048_576.0)
+    } else {
+        format!("{:.1} GiB", bytes / GIBIBYTE)
+    }
+}
+
+/// What else may help where there is so little memory that a limit must be the reason.
+fn little(bytes: f64) -> &'static str {
+    if bytes < GIBIBYTE {
+        ", or fewer threads where ulimit -v is the limit"
+    } else {
+        ""
+    }
 }
 
 /// What a packing will need.

@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Instant;
 
-use crate::scene_fuzz::{self, kills};
+use crate::scene_fuzz::{self, faults, files, kills};
 use crate::{balanced, bodies, reproduce, root, tidy};
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
@@ -11,6 +11,12 @@ const RANDOM_SCENES: usize = 50;
 
 /// Runs of random scenes that are killed; `cargo xtask kills` does 200.
 const KILLS: usize = 20;
+
+/// Runs under faults, twice each; `cargo xtask faults` does 500.
+const FAULTS: usize = 48;
+
+/// Damaged scene files; `cargo xtask fuzz --scene-files 100000` is the long form.
+const SCENE_FILES: usize = 1000;
 
 /// Runs every check; the first that fails ends it.
 pub(crate) fn run() -> Result<(), String> {
@@ -41,7 +47,9 @@ pub(crate) fn run() -> Result<(), String> {
     balanced::run(&quick)?;
     bodies::run(&bodies::Settings::quick())?;
     scene_fuzz::run(&scene_fuzz::Settings::new(RANDOM_SCENES))?;
-    kills::run(&kills::Settings::new(KILLS))
+    kills::run(&kills::Settings::new(KILLS))?;
+    faults::run(&faults::Settings::new(FAULTS))?;
+    files::run(&files::Settings::new(SCENE_FILES))
 }
 
 fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {

@@ -1,4 +1,4 @@
-//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | kills | reproduce-paper | balanced | compare |
+//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | kills | faults | reproduce-paper | balanced | compare |
 //! corpora | lattices | speed | bodies | round-trip`.
 
 mod accelerations;
@@ -19,6 +19,7 @@ mod interface;
 mod lattices;
 #[path = "../../geometry/src/read/mangle.rs"]
 mod mangle;
+mod marks;
 mod parsed;
 mod reproduce;
 mod rest;
@@ -45,8 +46,14 @@ cargo xtask TASK
                               random scenes, packed by the command and judged by brute force;
                               --number runs and shows one of them alone,
                               --write also writes docs/reliability.md
+  fuzz --scene-files N [--seed N] [--write]
+                              damaged scene files for the parser and the plan, in process; 100000 is the long form,
+                              --write also writes docs/reliability.md
   kills [--runs N] [--seed N] [--program FILE]
                               runs of random scenes, killed N times (200) and resumed: they must come to the same bytes
+  faults [--runs N] [--seed N] [--only FAULT] [--program FILE] [--write]
+                              the command where folders, disks, memory, threads, inputs fail it (500 runs): no panic, outputs
+                              whole or as they were, nothing left behind; --write also writes docs/reliability.md
   reproduce-paper [--quick] [--only SCENE] [--data DIR] [--write]
                               the figures of paper 001, published beside ours;
                               --quick leaves out the long runs,
@@ -86,10 +93,18 @@ fn main() -> ExitCode {
         Some("fuzz") if rest.iter().any(|word| word == "--scenes") => {
             scene_fuzz::Settings::parse(rest).and_then(|s| scene_fuzz::run(&s))
         }
+        Some("fuzz") if rest.iter().any(|word| word == "--scene-files") => {
+            let settings = scene_fuzz::files::Settings::parse(rest);
+            settings.and_then(|s| scene_fuzz::files::run(&s))
+        }
         Some("fuzz") => fuzz::Settings::parse(rest).and_then(|s| fuzz::run(&s)),
         Some("kills") => {
             let settings = scene_fuzz::kills::Settings::parse(rest);
             settings.and_then(|s| scene_fuzz::kills::run(&s))
+        }
+        Some("faults") => {
+            let settings = scene_fuzz::faults::Settings::parse(rest);
+            settings.and_then(|s| scene_fuzz::faults::run(&s))
         }
         Some("reproduce-paper") => {
             reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))

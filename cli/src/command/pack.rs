@@ -298,6 +298,14 @@ impl Files {
             None => rows,
         };
         let frozen = (rows.kind.iter().filter(|&&kind| kind == Kind::Frozen)).count();
+        let (first, first_format) = &self.particles[0];
+        let rescued = |error: Error| {
+            let elsewhere = (error.is_all_lost()).then(|| rescue(&rows, first, *first_format));
+            match elsewhere.flatten() {
+                Some(elsewhere) => error.with_kept(&[elsewhere], &[]),
+                None => error,
+            }
+        };
         for (path, format) in &self.particles {
             let mut is_compared = true;
             let done = files.write_and_check(
@@ -305,15 +313,7 @@ impl Files {
                 |to| format.write(&rows, to),
                 |written| compare(&rows, *format, written).map(|done| is_compared = done),
             );
-            if let Err(error) = done {
-                let is_first = written.is_empty();
-                return Err(
-                    match is_first.then(|| rescue(&rows, path, *format)).flatten() {
-                        Some(elsewhere) => error.with_kept(&[elsewhere], &[]),
-                        None => error,
-                    },
-                );
-            }
+            done.map_err(&rescued)?;
             let remark = if is_compared {
                 ""
             } else {
@@ -343,7 +343,7 @@ impl Files {
                 spacing: report.spacing,
                 is_unfinished: !(report.converged && report.audit.passed),
             };
-            files.write(path, |to| draw(&subject, *format, to))?;
+            (files.write(path, |to| draw(&subject, *format, to))).map_err(&rescued)?;
             written.push(shown(path));
         }
         let report = &mut outcome.report;
@@ -351,10 +351,11 @@ impl Files {
         report.seconds.total = begin.elapsed().as_secs_f64();
         report.peak_memory_bytes = peak_memory_bytes();
         if let Some(path) = &self.report {
-            files.write(path, |to| to.write_all(report.to_json().as_bytes()))?;
+            let json = report.to_json();
+            (files.write(path, |to| to.write_all(json.as_bytes()))).map_err(&rescued)?;
             written.push(shown(path));
         }
-        files.finish()?;
+        files.finish().map_err(&rescued)?;
         Ok(written)
     }
 }

@@ -16,6 +16,7 @@ mod number_type;
 mod ply;
 mod ply_read;
 mod read_back;
+mod size_limit;
 mod sound;
 mod temporary;
 #[cfg(test)]
@@ -55,7 +56,7 @@ pub use vtu_read::read_vtu;
 pub(crate) use whole::{WholeFiles, replace};
 
 /// The largest input that is read into memory, bytes.
-const MAX_INPUT: u64 = 8 << 30;
+pub(crate) const MAX_INPUT: u64 = 8 << 30;
 
 /// Opens a file for reading.
 pub(crate) fn open(path: &Path) -> Result<File, Error> {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+use super::size_limit::Limited;
 use super::temporary::{clean, folder_of, temporary, unfinished};
 use crate::Error;
 
@@ -123,7 +124,10 @@ impl WholeFiles {
         for Renamed { path, before } in done {
             let Ok(name) = rescued(&path, &path) else {
                 // It stays where it is: what was there before has another name at least.
-                kept.push(path.clone());
+                if is_there(&path) {
+                    kept.push(path.clone());
+                }
+                let before = before.filter(|before| is_there(before));
                 lost.extend(before.map(|before| (path, before)));
                 continue;
             };
@@ -143,12 +147,17 @@ impl WholeFiles {
                     let name = hidden.with_extension("complete");
                     fs::rename(&hidden, &name).map(|()| name)
                 });
-                kept.push(name.unwrap_or(hidden));
+                // Under its hidden name a later run would take it away, and its folder may have gone with it.
+                kept.extend(name.ok());
                 drop(file);
             }
         }
         Error::write(path, reason).with_kept(&kept, &lost)
     }
+}
+
+fn is_there(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok()
 }
 
 /// Writes a single file, down to the disk, in place of whatever has its name: at any instant the one or the other is
@@ -178,7 +187,7 @@ fn written(
         registered.push(file.path().to_owned());
         file
     };
-    let mut buffered = BufWriter::with_capacity(1 << 18, file.as_file_mut());
+    let mut buffered = BufWriter::with_capacity(1 << 18, Limited::new(file.as_file_mut()));
     content(&mut buffered)?;
     buffered.flush()?;
     drop(buffered);

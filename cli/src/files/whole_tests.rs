@@ -223,3 +223,15 @@ fn names_too_long_for_more_are_kept_hidden() {
     assert!(message.contains(&all[0]), "{message}");
     assert_eq!(fs::read(folder.path().join(&all[0])).unwrap(), b"first");
 }
+
+#[test]
+fn what_has_gone_with_its_folder_is_not_said_to_be_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let sub = folder.path().join("sub");
+    fs::create_dir(&sub).unwrap();
+    let mut files = WholeFiles::new(true);
+    write(&mut files, &sub.join("a.txt"), "a");
+    fs::rename(&sub, folder.path().join("gone")).unwrap();
+    let error = files.finish().unwrap_err();
+    assert!(error.is_all_lost(), "{error}");
+}

@@ -78,7 +78,9 @@ impl Repaired {
         if is_there(&report, &UNMENDED) {
             return Err(defective(&report));
         }
-        let contact = report.defect(DefectKind::Contact).map(|contact| contact.count);
+        let contact = report
+            .defect(DefectKind::Contact)
+            .map(|contact| contact.count);
         let overlap = is_there(&report, &[DefectKind::Overlap, DefectKind::Redundant]);
         if let Some(count) = contact.filter(|_| !overlap && !soup.has_flush_walls()) {
             // Along edges and in points: each shell is a body of its own there.

@@ -150,8 +150,12 @@ mod tests {
             (33.0, &[0.5][..], 5e-7),
             (71.0, &[0.1, 0.10001, 0.6][..], -4e-7),
         ] {
-            let turn = Similarity::<3>::new(3.0, [1.0, 0.2, 0.5], degrees, [1.0, 0.0, -2.0]).unwrap();
-            let soup = Soup::from_loose(&cracked(cuts, off)).unwrap().transformed(&turn).unwrap();
+            let turn =
+                Similarity::<3>::new(3.0, [1.0, 0.2, 0.5], degrees, [1.0, 0.0, -2.0]).unwrap();
+            let soup = Soup::from_loose(&cracked(cuts, off))
+                .unwrap()
+                .transformed(&turn)
+                .unwrap();
             let repaired = soup.repaired(HoleLimit::Small);
             assert_eq!(repaired.done, [Repair::ClosedCracks(1)]);
             let mesh = repaired.body().unwrap().mesh;
@@ -159,6 +163,11 @@ mod tests {
         }
         // A crack of some width is a hole.
         let soup = Soup::from_loose(&cracked(&[0.5], 1e-4)).unwrap();
-        assert!(!soup.repaired(HoleLimit::Small).done.contains(&Repair::ClosedCracks(1)));
+        assert!(
+            !soup
+                .repaired(HoleLimit::Small)
+                .done
+                .contains(&Repair::ClosedCracks(1))
+        );
     }
 }

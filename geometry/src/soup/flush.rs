@@ -5,11 +5,11 @@ use sphpack_neighbors::{Bounds, point};
 
 use super::shells::Joined;
 use super::{Soup, check, cracks};
+use crate::Bvh;
 use crate::mesh::{topology, triangle};
 use crate::outline::booleans::{common, without};
 use crate::outline::winding_number;
 use crate::segment::signed_area;
-use crate::Bvh;
 
 /// Cosine of the angle up to which faces are opposite.
 const OPPOSITE: f64 = -1.0 + 1e-9;
@@ -59,24 +59,30 @@ impl Soup {
 
     fn open_edges(&self) -> usize {
         let sides = check::sides(self);
-        topology::edges(&sides).filter(|edge| edge.len() % 2 == 1).count()
+        topology::edges(&sides)
+            .filter(|edge| edge.len() % 2 == 1)
+            .count()
     }
 
     fn drop_walls(&mut self) -> usize {
         let width = cracks::WIDTH * Bounds::of(&self.vertices).diagonal();
-        let corners: Vec<[[f64; 3]; 3]> = (0..self.triangles.len()).map(|t| self.corners(t)).collect();
+        let corners: Vec<[[f64; 3]; 3]> =
+            (0..self.triangles.len()).map(|t| self.corners(t)).collect();
         let normals: Vec<Option<[f64; 3]>> = (corners.iter())
             .map(|t| point::unit(triangle::area_vector(t)))
             .collect();
-        let boxes: Vec<Bounds<3>> = corners.iter().map(|t| Bounds::of(t).grown(0.5 * width)).collect();
+        let boxes: Vec<Bounds<3>> = corners
+            .iter()
+            .map(|t| Bounds::of(t).grown(0.5 * width))
+            .collect();
         let mut joined = Joined::new(corners.len());
         let mut faces: Vec<usize> = Vec::new();
         let tree = Bvh::build(&boxes);
         for i in 0..corners.len() {
             let Some(normal) = normals[i] else { continue };
             tree.overlapping(&boxes[i], |j| {
-                let is_opposite = j > i
-                    && normals[j].is_some_and(|other| point::dot(normal, other) < OPPOSITE);
+                let is_opposite =
+                    j > i && normals[j].is_some_and(|other| point::dot(normal, other) < OPPOSITE);
                 if is_opposite && lie_on_each_other(&corners[i], &corners[j], normal, width) {
                     joined.join(i as u32, j as u32);
                     faces.extend([i, j]);
@@ -85,7 +91,8 @@ impl Soup {
         }
         faces.sort_unstable();
         faces.dedup();
-        let mut walls: std::collections::BTreeMap<u32, Vec<usize>> = std::collections::BTreeMap::new();
+        let mut walls: std::collections::BTreeMap<u32, Vec<usize>> =
+            std::collections::BTreeMap::new();
         for &t in &faces {
             walls.entry(joined.find(t as u32)).or_default().push(t);
         }
@@ -198,7 +205,14 @@ impl Soup {
                 let own = taken.iter().find(|(handle, _)| *handle == vertex.fix());
                 own.map_or(0, |(_, v)| *v)
             });
-            triangles.push(ids);
+            // Corners on a line, but for rounding, make no triangle; edges that then end in the middle of others are cut.
+            let corners = ids.map(|v| self.vertices[v as usize]);
+            let longest = (0..3)
+                .map(|k| point::distance(corners[k], corners[(k + 1) % 3]))
+                .fold(0.0, f64::max);
+            if triangle::area(&corners) > 0.5 * width * longest {
+                triangles.push(ids);
+            }
         }
         triangles
     }
@@ -211,8 +225,8 @@ fn lie_on_each_other(
     normal: [f64; 3],
     width: f64,
 ) -> bool {
-    let is_in_plane = (other.iter())
-        .all(|&p| point::dot(point::sub(p, one[0]), normal).abs() <= width);
+    let is_in_plane =
+        (other.iter()).all(|&p| point::dot(point::sub(p, one[0]), normal).abs() <= width);
     let parts = |of: &[[f64; 3]; 3], from: &[[f64; 3]; 3], up: [f64; 3]| {
         (0..3).any(|k| {
             let way = point::sub(of[(k + 1) % 3], of[k]);
@@ -221,9 +235,7 @@ fn lie_on_each_other(
                 .all(|&p| point::dot(point::sub(p, of[k]), out) >= -width)
         })
     };
-    is_in_plane
-        && !parts(one, other, normal)
-        && !parts(other, one, point::scale(normal, -1.0))
+    is_in_plane && !parts(one, other, normal) && !parts(other, one, point::scale(normal, -1.0))
 }
 
 #[cfg(test)]
@@ -233,7 +245,8 @@ mod tests {
 
     /// A box with sides that are cut along one diagonal or the other, as `bits` say.
     fn brick(low: [f64; 3], high: [f64; 3], bits: u32) -> Vec<[[f64; 3]; 3]> {
-        let corner = |k: usize| std::array::from_fn(|a| if k >> a & 1 == 1 { high[a] } else { low[a] });
+        let corner =
+            |k: usize| std::array::from_fn(|a| if k >> a & 1 == 1 { high[a] } else { low[a] });
         let sides = [
             [0, 2, 3, 1],
             [4, 5, 7, 6],
@@ -257,33 +270,58 @@ mod tests {
     #[test]
     fn shared_sides_with_other_diagonals() {
         for bits in 0..64 {
-            let both = [brick([-0.5; 3], [0.5; 3], 0), brick([0.5, -0.5, -0.5], [1.5, 0.5, 0.5], bits)];
+            let both = [
+                brick([-0.5; 3], [0.5; 3], 0),
+                brick([0.5, -0.5, -0.5], [1.5, 0.5, 0.5], bits),
+            ];
             let body = Soup::from_loose(&both.concat()).unwrap().body().unwrap();
             assert!((body.mesh.volume() - 2.0).abs() < 1e-12, "{:?}", body.done);
-            assert!((body.mesh.measure() - 10.0).abs() < 1e-12, "{:?}", body.done);
+            assert!(
+                (body.mesh.measure() - 10.0).abs() < 1e-12,
+                "{:?}",
+                body.done
+            );
         }
     }
 
     #[test]
     fn a_box_on_a_plate() {
         // In the middle, at an edge, in a corner, over the edge.
-        for (x, y, area) in [(0.7, 0.4, 14.0), (0.7, 0.0, 14.0), (0.0, 0.0, 14.0), (-0.3, 0.4, 14.0 + 2.0 * 0.3 * 0.5)] {
+        for (x, y, area) in [
+            (0.7, 0.4, 14.0),
+            (0.7, 0.0, 14.0),
+            (0.0, 0.0, 14.0),
+            (-0.3, 0.4, 14.0 + 2.0 * 0.3 * 0.5),
+        ] {
             let plate = brick([0.0; 3], [2.0, 2.0, 0.5], 13);
             let low = [x, y, 0.5];
             let block = brick(low, [x + 0.5, y + 0.5, 1.5], 37);
             let exact = 2.0 + 0.25;
             let _ = area;
-            let body = Soup::from_loose(&[plate, block].concat()).unwrap().body().unwrap();
-            assert!((body.mesh.volume() - exact).abs() < 1e-9, "{x} {y}: {:?}", body.done);
+            let body = Soup::from_loose(&[plate, block].concat())
+                .unwrap()
+                .body()
+                .unwrap();
+            assert!(
+                (body.mesh.volume() - exact).abs() < 1e-9,
+                "{x} {y}: {:?}",
+                body.done
+            );
             let shared = 0.5 * (0.5 + x.min(0.0));
             let all = 2.0 * 4.0 + 8.0 * 0.5 + 2.0 * 0.25 + 4.0 * 0.5 - 2.0 * shared;
-            assert!((body.mesh.measure() - all).abs() < 1e-9, "{x} {y}: {} {all}", body.mesh.measure());
+            assert!(
+                (body.mesh.measure() - all).abs() < 1e-9,
+                "{x} {y}: {} {all}",
+                body.mesh.measure()
+            );
         }
     }
 
     /// Small whole numbers from a seed.
     fn next(state: &mut u64, below: u64) -> u64 {
-        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        *state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (*state >> 33) % below
     }
 
@@ -304,7 +342,8 @@ mod tests {
                     std::array::from_fn(|k| low[k] + 1 + next(&mut state, 2) as usize);
                 let cells = || {
                     (low[0]..high[0]).flat_map(move |i| {
-                        (low[1]..high[1]).flat_map(move |j| (low[2]..high[2]).map(move |k| [i, j, k]))
+                        (low[1]..high[1])
+                            .flat_map(move |j| (low[2]..high[2]).map(move |k| [i, j, k]))
                     })
                 };
                 if cells().any(|[i, j, k]| filled[i][j][k]) {
@@ -327,15 +366,23 @@ mod tests {
                     for k in 0..SIZE as isize {
                         if is_full(i, j, k) {
                             let around = [
-                                (i - 1, j, k), (i + 1, j, k), (i, j - 1, k),
-                                (i, j + 1, k), (i, j, k - 1), (i, j, k + 1),
+                                (i - 1, j, k),
+                                (i + 1, j, k),
+                                (i, j - 1, k),
+                                (i, j + 1, k),
+                                (i, j, k - 1),
+                                (i, j, k + 1),
                             ];
-                            area += around.iter().filter(|&&(i, j, k)| !is_full(i, j, k)).count();
+                            area += around
+                                .iter()
+                                .filter(|&&(i, j, k)| !is_full(i, j, k))
+                                .count();
                         }
                     }
                 }
             }
-            let turn = Similarity::<3>::new(1.0, [0.4, 1.0, 0.3], seed as f64, [0.3, 0.1, 0.7]).unwrap();
+            let turn =
+                Similarity::<3>::new(1.0, [0.4, 1.0, 0.3], seed as f64, [0.3, 0.1, 0.7]).unwrap();
             let is_single = seed % 2 == 1;
             for p in faces.iter_mut().flatten() {
                 *p = turn.point(*p);
@@ -346,8 +393,16 @@ mod tests {
             match Soup::from_loose(&faces).unwrap().body() {
                 Ok(body) => {
                     let (v, a) = (body.mesh.volume(), body.mesh.measure());
-                    assert!((v - f64::from(volume)).abs() < 1e-3, "{seed}: {v} {volume} {:?}", body.done);
-                    assert!((a - area as f64).abs() < 1e-3, "{seed}: {a} {area} {:?}", body.done);
+                    assert!(
+                        (v - f64::from(volume)).abs() < 1e-3,
+                        "{seed}: {v} {volume} {:?}",
+                        body.done
+                    );
+                    assert!(
+                        (a - area as f64).abs() < 1e-3,
+                        "{seed}: {a} {area} {:?}",
+                        body.done
+                    );
                 }
                 Err(_) => refused += 1,
             }

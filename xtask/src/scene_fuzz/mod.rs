@@ -2,6 +2,9 @@
 
 mod airfoil;
 mod case;
+pub(crate) mod faults;
+pub(crate) mod files;
+mod garble;
 mod generate;
 mod judge;
 mod kernel;

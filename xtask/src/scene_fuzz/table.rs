@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::fs;
 
 use super::judge::{Fault, Judgement, Verdict};
-use crate::root;
+use crate::marks;
 
 /// What came of a scene.
 #[derive(Debug, Clone)]
@@ -33,23 +32,6 @@ impl Outcome {
         matches!(self.judgement.verdict, Verdict::Failed(_))
     }
 }
-
-const BEGIN: &str = "<!-- scenes -->";
-const END: &str = "<!-- /scenes -->";
-
-const INTRODUCTION: &str = "\
-# Reliability
-
-What the command does with scenes that nobody has thought of: random ones, packed by the command and judged by a program
-that shares no code with it.
-
-## Random scenes
-
-`cargo xtask fuzz --scenes 500` makes them, from a seed and a number, so that each can be had again. A scene is *right*
-where the command ends with exit status 0 and all particles are in the box, no two are nearer than half their size,
-every body has its volume and its own particles, and all sums and figures are what brute force says.
-
-";
 
 /// How many of each kind, and the numbers of the first.
 #[derive(Default)]
@@ -167,36 +149,5 @@ pub(super) fn table(seed: u64, outcomes: &[Outcome]) -> String {
 
 /// Puts the table into the page on reliability.
 pub(super) fn write(table: &str) -> Result<(), String> {
-    let path = root().join("docs/reliability.md");
-    let old = if path.is_file() {
-        fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?
-    } else {
-        format!("{INTRODUCTION}{BEGIN}\n{END}\n")
-    };
-    let new =
-        between_marks(&old, table).ok_or(format!("{} lacks {BEGIN} or {END}", path.display()))?;
-    fs::write(&path, new).map_err(|error| format!("{}: {error}", path.display()))
-}
-
-fn between_marks(page: &str, table: &str) -> Option<String> {
-    let (before, rest) = page.split_once(BEGIN)?;
-    let (_, after) = rest.split_once(END)?;
-    Some(format!(
-        "{before}{BEGIN}\n{}\n{END}{after}",
-        table.trim_end()
-    ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pages_keep_what_is_around_the_table() {
-        let page = format!("a\n{BEGIN}\nold\n{END}\nb\n");
-        let new = between_marks(&page, "new\n").unwrap();
-        assert_eq!(new, format!("a\n{BEGIN}\nnew\n{END}\nb\n"));
-        assert_eq!(between_marks(&new, "new\n").unwrap(), new);
-        assert!(between_marks("nothing", "x").is_none());
-    }
+    marks::write("scenes", table)
 }
