@@ -36,7 +36,7 @@ pub enum Error {
         /// The scene's file.
         path: PathBuf,
         /// What is wrong.
-        source: PackingError,
+        source: Box<PackingError>,
         /// What else may help.
         advice: Option<String>,
     },

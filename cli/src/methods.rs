@@ -84,7 +84,7 @@ where
     packed.map_err(|source| Error::Packing {
         advice: None,
         path: scene.path.clone(),
-        source,
+        source: Box::new(source),
     })
 }
 
@@ -99,7 +99,7 @@ pub(crate) fn check<const D: usize>(problem: &Problem<D>, scene: &Scene) -> Resu
     checked.map_err(|source| Error::Packing {
         advice: None,
         path: scene.path.clone(),
-        source,
+        source: Box::new(source),
     })
 }
 

@@ -282,7 +282,7 @@ where
     let fail = |source: PackingError| Error::Packing {
         path: scene.path.clone(),
         advice: units::advice(scene, &problem, &source),
-        source,
+        source: Box::new(source),
     };
     let moves = match (scene.packing.method, scene.packing.band) {
         (Method::Balanced, BandWidth::Auto) => {

@@ -65,7 +65,7 @@ impl Mesh {
         for axis in (0..3).filter(|&axis| domain.periodic[axis]) {
             net = net.with_images(domain, axis, reach[axis])?;
         }
-        let whole = Mesh::new(net.vertices, net.triangles)?;
+        let whole = Self::new(net.vertices, net.triangles)?;
         Ok(Some(Continued::new(Arc::new(whole), domain)))
     }
 }

@@ -58,7 +58,7 @@ impl Outline {
         if loops.is_empty() {
             return None;
         }
-        let whole = Outline::assemble(loops);
+        let whole = Self::assemble(loops);
         Some(Continued::new(Arc::new(whole), domain))
     }
 }

@@ -1,3 +1,5 @@
+//! Continued bodies against images, rasters and exact caps.
+
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;

@@ -82,11 +82,12 @@ impl Repaired {
             .defect(DefectKind::Contact)
             .map(|contact| contact.count);
         let overlap = is_there(&report, &[DefectKind::Overlap, DefectKind::Redundant]);
-        if let Some(count) = contact.filter(|_| !overlap && !soup.has_flush_walls()) {
+        let stays_apart = contact.is_some()
+            && !overlap
+            && !soup.has_flush_walls()
+            && !join::reach_into_each_other(&soup);
+        if let Some(count) = contact.filter(|_| stays_apart) {
             // Along edges and in points: each shell is a body of its own there.
-            if join::reach_into_each_other(&soup) {
-                return Err(defective(&report));
-            }
             done.push(Repair::LeftContacts(count));
         } else if is_there(&report, &SEVERAL) {
             let survey = Survey::new(&soup);

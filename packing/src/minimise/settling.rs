@@ -90,6 +90,10 @@ const PATIENCE: usize = 200;
 const STANDSTILL: f64 = 1e-5;
 const SMALL_FORCE: f64 = 1e-3;
 
+/// Nor where the largest force has not halved within so many evaluations (times the minimiser's pace): what comes to rest
+/// at all does within some hundred.
+const LONG_PATIENCE: usize = 3000;
+
 impl Settling {
     /// The levelling that pays at an h/∆s: 10 from 1.2 on, less below, as the fourth power. With a shorter kernel every
     /// neighbour counts for more, and evenness costs more evaluations and larger forces left over.
@@ -152,6 +156,7 @@ impl Settling {
         let mut early = !is_again;
         let mut noted = 0;
         let (mut lowest, mut energy_then, mut lowest_at) = (f64::INFINITY, f64::INFINITY, begin);
+        let (mut halved, mut halved_at) = (f64::INFINITY, begin);
         let mut descent = Descent {
             landscape,
             minimiser,
@@ -165,6 +170,8 @@ impl Settling {
             &mut lowest,
             &mut energy_then,
             &mut lowest_at,
+            &mut halved,
+            &mut halved_at,
         ])?;
         if found == Begin::Anew && is_again {
             self.begin_end(descent.landscape, perfect_gamma);
@@ -179,6 +186,8 @@ impl Settling {
                 &lowest,
                 &energy_then,
                 &lowest_at,
+                &halved,
+                &halved_at,
             ]) {
                 break StopReason::Interrupted;
             }
@@ -208,6 +217,7 @@ impl Settling {
                     minimiser.reset();
                     (lowest, lowest_at) = (f64::INFINITY, evaluations);
                     energy_then = landscape.energy();
+                    (halved, halved_at) = (f64::INFINITY, evaluations);
                 }
                 continue;
             }
@@ -215,6 +225,11 @@ impl Settling {
                 break StopReason::Converged;
             }
             if step == Step::Stuck {
+                break StopReason::Stagnated;
+            }
+            if residual < 0.5 * halved {
+                (halved, halved_at) = (residual, evaluations);
+            } else if evaluations > halved_at + LONG_PATIENCE * self.minimiser.pace() {
                 break StopReason::Stagnated;
             }
             if residual < lowest {

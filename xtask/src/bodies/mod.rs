@@ -2,6 +2,7 @@
 
 mod boxes;
 mod plane;
+mod shapes;
 mod space;
 
 use std::fmt::Write as _;
