@@ -18,6 +18,10 @@ const FLOOR: f64 = 0.4;
 /// at least this, so that nobody crosses it.
 const OUTSIDE: [f64; 2] = [0.45, 0.005];
 
+/// A particle of the fluid that begins no deeper than this in a body, in ∆s, is put out of it: lattice planes along a flat face
+/// are cut by number, so that some of a plane just within it are the fluid's.
+const STRAYED: f64 = 0.4;
+
 /// A particle this near to its floor, in ∆s, lies on it. Without some room rounding says who does (±10⁻¹⁷ on a
 /// flat face, and on one that bends whoever slides is off by s²/2R), and the reaction of the surface comes and goes in
 /// the forces: a minimiser then finds no rest (blades of a CAD mesh: 1,126 evaluations, 86 with it).
@@ -121,24 +125,34 @@ impl<const D: usize> Sides<D> {
             around.dedup();
             around.into_iter().map(move |surface| {
                 let number = usize::from(surface);
+                // A site of the fluid may lie a little within a body: it goes out at once.
+                let is_fluid = particles.body[i as usize].is_none();
+                let deepest = if is_fluid { STRAYED * spacing } else { 0.0 };
                 let out = (bodies.get(number))
                     .map(|body| (body.surface.closest(p).distance, body.inset_over_spacing))
-                    .filter(|(distance, _)| *distance > 0.0);
+                    .filter(|(distance, _)| *distance > -deepest);
                 let (distance, floor) = match out {
-                    Some((distance, inset)) => (distance, (OUTSIDE[0] - inset).max(OUTSIDE[1])),
-                    None => (surfaces[number].surface.closest(p).distance, FLOOR),
+                    Some((distance, inset)) if distance > 0.0 => {
+                        let floor = (OUTSIDE[0] - inset).max(OUTSIDE[1]) * spacing;
+                        (distance, floor.min(distance))
+                    }
+                    Some((distance, _)) => (distance, OUTSIDE[1] * spacing),
+                    None => {
+                        let distance = surfaces[number].surface.closest(p).distance;
+                        (distance, (FLOOR * spacing).min(distance.abs()))
+                    }
                 };
-                let floor = (floor * spacing).min(distance.abs());
+                let side = if out.is_some() { 1.0 } else { distance.signum() };
                 let slack = ON_FLOOR * spacing;
                 Watched {
                     particle: i,
                     surface,
                     is_out: out.is_some(),
-                    side: distance.signum(),
+                    side,
                     floor,
                     slack,
                     seen: p,
-                    room: distance.abs() - floor - slack,
+                    room: side * distance - floor - slack,
                     held: None,
                 }
             })

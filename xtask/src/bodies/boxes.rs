@@ -12,8 +12,8 @@ use super::{CLOSEST, LINF, Row};
 use crate::scene_fuzz::random::Random;
 
 /// Boxes of each kind, and in the short form.
-const WALLS: usize = 200;
-const CELLS: usize = 300;
+pub(super) const WALLS: usize = 200;
+pub(super) const CELLS: usize = 300;
 const QUICK: usize = 10;
 
 /// Cells along an axis by which volumes are counted, in the plane and in space.

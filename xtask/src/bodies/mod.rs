@@ -264,10 +264,17 @@ particle is in, and compares their volumes with the exact ones. *Right*: every p
 particle, or to 1 % where that is more. *Even*: L∞ of the density at most {:.1} % and no pair nearer than {CLOSEST} ∆s.
 *Said*: exit status 3 with the place and the cure. *Wrong*: done, but a mass is off.
 
+*Walls* and *periodic cells* are random boxes, in the plane and in space, with a body that passes a side, lies on one, is as long as the
+box or meets its images: {walls} with open sides, {cells} with periodic ones, at one spacing each. There *right* means that no particle is
+outside the box, none of the body outside the body or its images, none of the fluid more than 0.12 ∆s inside, the mass what counting
+cells of the box gives, and no two particles are nearer than half a spacing, images counted.
+
 | body | scenes | right | even | said | refused | wrong | worst mass, in allowances | worst L∞ | closest pair |
 |---|---|---|---|---|---|---|---|---|---|
 ",
-        100.0 * LINF
+        100.0 * LINF,
+        walls = boxes::WALLS,
+        cells = boxes::CELLS
     );
     for row in rows {
         let _ = writeln!(text, "{}", line(row));

@@ -123,6 +123,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     }
 }
 
+/// When a worker began with a file, and which.
+type Begun = (Instant, Vec<u8>);
+
 /// Those of the project, the template, and some of the generator.
 fn scenes(seed: u64) -> Result<Vec<String>, String> {
     let folder = root().join("scenes");
@@ -145,7 +148,7 @@ fn work(
 ) -> Result<(Tally, Vec<String>), String> {
     let blocks = settings.files.div_ceil(BLOCK);
     // What is being read, and since when.
-    let at: Vec<Mutex<Option<(Instant, Vec<u8>)>>> = (0..8).map(|_| Mutex::new(None)).collect();
+    let at: Vec<Mutex<Option<Begun>>> = (0..8).map(|_| Mutex::new(None)).collect();
     let done = AtomicUsize::new(0);
     let block = |number: usize, worker: usize| {
         let random = &mut Random::new(settings.seed, number as u64);

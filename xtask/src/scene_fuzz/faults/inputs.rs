@@ -82,7 +82,7 @@ pub(super) fn no_end(desk: &Desk<'_>, random: &mut Random) -> Result<Outcome, St
             if !desk.has_nobody() {
                 return Ok(Outcome::Skipped("no other user can be had"));
             }
-            fs::set_permissions(&path, Permissions::from_mode(0)).map_err(words)?;
+            fs::set_permissions(&path, Permissions::from_mode(0o000)).map_err(words)?;
             for reader in readers(name) {
                 let mut run = Run::new(&reader);
                 run.as_nobody = true;

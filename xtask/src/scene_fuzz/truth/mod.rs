@@ -7,7 +7,7 @@ mod triangles;
 mod volumes;
 
 use super::airfoil;
-use super::case::{Body, Case, Role};
+use super::case::{Body, Case, Role, Sides};
 use super::shape::{MeshFormat, Shape};
 use loops::Loops;
 use place::Place;
@@ -190,6 +190,8 @@ impl True {
 pub(super) struct Truth {
     dimension: usize,
     pub(super) bodies: Vec<True>,
+    /// The corners of the box, where the scene names them, and its periodic axes.
+    sides: Option<([Point; 2], [bool; 3])>,
 }
 
 impl Truth {
@@ -202,7 +204,44 @@ impl Truth {
                 .iter()
                 .map(|body| True::new(body, case.spacing))
                 .collect(),
+            sides: match &case.sides {
+                Sides::Margin(_) => None,
+                Sides::Corners(low, high) => {
+                    let periodic = |k: usize| case.periodic.get(k).copied().unwrap_or(false);
+                    let corner = |values: &[f64]| -> Point {
+                        std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+                    };
+                    Some(([corner(low), corner(high)], std::array::from_fn(periodic)))
+                }
+            },
         }
+    }
+
+    /// Where a body passes sides of the box, these and from it to its images across periodic ones, itself first.
+    fn passes(&self, body: usize) -> Option<([Point; 2], Vec<Point>)> {
+        let ([low, high], periodic) = self.sides?;
+        let [min, max] = self.bodies[body].bounds();
+        let mut axes = 0..self.dimension;
+        let size: Point = std::array::from_fn(|k| high[k] - low[k]);
+        let passes = axes.any(|k| {
+            let slack = 1e-6 * size[k];
+            min[k] < low[k] - slack || max[k] > high[k] + slack
+        });
+        if !passes {
+            return None;
+        }
+        let mut shifts = vec![[0.0; 3]];
+        for k in (0..self.dimension).filter(|&k| periodic[k]) {
+            let more = shifts.clone().into_iter().flat_map(|shift: Point| {
+                [-size[k], size[k]].map(|step| {
+                    let mut shift = shift;
+                    shift[k] += step;
+                    shift
+                })
+            });
+            shifts.extend(more.collect::<Vec<Point>>());
+        }
+        Some(([low, high], shifts))
     }
 
     /// Those that cut a solid body.
@@ -210,27 +249,39 @@ impl Truth {
         let own = &self.bodies[body];
         self.bodies.iter().filter(move |other| {
             own.role == Role::Solid
-                && other.role == Role::Solid
+                && other.role != Role::Container
                 && other.precedence > own.precedence
         })
     }
 
-    /// Distance from the surface of what is left of a body, negative inside. Inside it is exact, outside a lower bound.
+    /// Distance from the surface of what is left of a body or of its images, negative inside. Inside it is exact, outside a
+    /// lower bound.
     pub(super) fn distance(&self, body: usize, p: Point) -> f64 {
+        match self.passes(body) {
+            None => self.alone(body, p),
+            Some((_, shifts)) => (shifts.iter())
+                .map(|shift| self.alone(body, std::array::from_fn(|k| p[k] + shift[k])))
+                .fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    fn alone(&self, body: usize, p: Point) -> f64 {
         self.cutters(body)
             .fold(self.bodies[body].distance(p), |d, other| {
                 d.max(-other.distance(p))
             })
     }
 
-    /// Area or volume of what is left of a body.
+    /// Area or volume of what is left of a body, in the box.
     pub(super) fn volume(&self, body: usize) -> f64 {
         let own = self.bodies[body].bounds();
         let is_cut = self.cutters(body).any(|other| {
             let theirs = other.bounds();
             (0..self.dimension).all(|k| own[0][k].max(theirs[0][k]) < own[1][k].min(theirs[1][k]))
         });
-        if is_cut {
+        if let Some(([low, high], _)) = self.passes(body) {
+            volumes::in_box(self, body, [low, high])
+        } else if is_cut {
             volumes::of_what_is_left(self, body)
         } else {
             self.bodies[body].volume()

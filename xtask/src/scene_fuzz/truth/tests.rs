@@ -53,6 +53,7 @@ fn what_is_left_of_a_body_is_measured() {
         True::new(&body, 0.1)
     };
     let mut truth = Truth {
+        sides: None,
         dimension: 3,
         bodies: vec![ball(0.0, 0), ball(1.0, 1)],
     };
@@ -71,6 +72,7 @@ fn what_is_left_of_a_body_is_measured() {
         True::new(&body, 0.1)
     };
     truth = Truth {
+        sides: None,
         dimension: 2,
         bodies: vec![
             plate([0.0, 0.0], [3.0, 2.0], 0),

@@ -17,6 +17,31 @@ pub(super) fn of_what_is_left(truth: &Truth, body: usize) -> f64 {
     }
 }
 
+/// Cells across the box by which what passes its sides is counted, in the plane and in space.
+const BOX_CELLS: [usize; 2] = [400, 60];
+
+/// Area or volume within a box: cells that the surface passes through count by how far their middle is from it.
+pub(super) fn in_box(truth: &Truth, body: usize, [min, max]: [Point; 2]) -> f64 {
+    let dimension = truth.dimension;
+    let count = BOX_CELLS[dimension - 2];
+    let step: Point = std::array::from_fn(|k| {
+        if k < dimension {
+            (max[k] - min[k]) / count as f64
+        } else {
+            0.0
+        }
+    });
+    let cell: f64 = step[..dimension].iter().product();
+    let width = cell.powf(1.0 / dimension as f64);
+    let mut sum = 0.0;
+    for i in 0..count.pow(dimension as u32) {
+        let at = [i % count, i / count % count, i / count / count];
+        let p = std::array::from_fn(|k| min[k] * f64::from(u8::from(k < dimension)) + (at[k] as f64 + 0.5) * step[k]);
+        sum += (0.5 - truth.distance(body, p) / width).clamp(0.0, 1.0);
+    }
+    sum * cell
+}
+
 /// Exact along each line.
 fn area(truth: &Truth, body: usize) -> f64 {
     let [min, max] = truth.bodies[body].bounds();
