@@ -19,6 +19,7 @@ mod precedence;
 mod sides;
 mod sound;
 mod surroundings;
+mod touching_shells;
 
 use std::fs;
 use std::path::Path;

@@ -142,7 +142,11 @@ impl<const D: usize> Sides<D> {
                         (distance, (FLOOR * spacing).min(distance.abs()))
                     }
                 };
-                let side = if out.is_some() { 1.0 } else { distance.signum() };
+                let side = if out.is_some() {
+                    1.0
+                } else {
+                    distance.signum()
+                };
                 let slack = ON_FLOOR * spacing;
                 Watched {
                     particle: i,

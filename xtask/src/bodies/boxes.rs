@@ -367,22 +367,36 @@ fn solid(random: &mut Random, max: [f64; 3], periodic: [bool; 3]) -> Shape {
     }
 }
 
-/// Packs and judges boxes with open sides, and with periodic ones.
-pub(super) fn rows(folder: &Path, is_quick: bool, only: Option<&str>) -> Result<Vec<Row>, String> {
-    let kinds = [("walls", false, WALLS), ("periodic cells", true, CELLS)];
-    let mut rows = Vec::new();
-    for (name, is_cell, count) in kinds {
-        if only.is_some_and(|only| only != name) {
-            continue;
-        }
-        let mut row = Row::new(name);
-        for number in 0..if is_quick { QUICK } else { count } {
-            let boxed = Boxed::random(u64::from(is_cell), number as u64, is_cell);
-            judge(&boxed, number, folder, &mut row)?;
-        }
-        rows.push(row);
+/// Boxes of one kind.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BoxKind {
+    pub(super) name: &'static str,
+    is_cell: bool,
+    count: usize,
+}
+
+/// Boxes with open sides, and with periodic ones.
+pub(super) const KINDS: [BoxKind; 2] = [
+    BoxKind {
+        name: "walls",
+        is_cell: false,
+        count: WALLS,
+    },
+    BoxKind {
+        name: "periodic cells",
+        is_cell: true,
+        count: CELLS,
+    },
+];
+
+/// Packs and judges boxes of a kind.
+pub(super) fn row(kind: BoxKind, folder: &Path, is_quick: bool) -> Result<Row, String> {
+    let mut row = Row::new(kind.name);
+    for number in 0..if is_quick { QUICK } else { kind.count } {
+        let boxed = Boxed::random(u64::from(kind.is_cell), number as u64, kind.is_cell);
+        judge(&boxed, number, folder, &mut row)?;
     }
-    Ok(rows)
+    Ok(row)
 }
 
 fn judge(boxed: &Boxed, number: usize, folder: &Path, row: &mut Row) -> Result<(), String> {

@@ -133,32 +133,44 @@ impl Row {
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let folder = root().join("target/bodies");
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let mut rows = Vec::new();
+    let mut rows: Vec<Row> = Vec::new();
+    let path = root().join("docs/bodies.md");
+    // Rows of other runs stay; each is written when it is there.
+    let write = |rows: &[Row]| {
+        if !settings.write {
+            return Ok(());
+        }
+        let old = fs::read_to_string(&path).unwrap_or_default();
+        fs::write(&path, document(&old, rows))
+            .map_err(|error| format!("{}: {error}", path.display()))
+    };
+    let is_asked = |name: &str| settings.only.as_deref().is_none_or(|only| only == name);
     // The short form leaves space out.
     let space = if settings.quick {
         Vec::new()
     } else {
         space::cases()
     };
-    for case in plane::cases().into_iter().chain(space) {
-        if settings
-            .only
-            .as_deref()
-            .is_none_or(|name| name == case.name())
-        {
-            let row = judge(case.as_ref(), &folder, settings.quick)?;
-            println!("{}", line(&row));
-            rows.push(row);
+    for case in plane::cases() {
+        if is_asked(case.name()) {
+            rows.push(judge(case.as_ref(), &folder, settings.quick)?);
+            println!("{}", rows.last().map(line).unwrap_or_default());
+            write(&rows)?;
         }
     }
-    for row in boxes::rows(&folder, settings.quick, settings.only.as_deref())? {
-        println!("{}", line(&row));
-        rows.push(row);
+    for kind in boxes::KINDS {
+        if is_asked(kind.name) {
+            rows.push(boxes::row(kind, &folder, settings.quick)?);
+            println!("{}", rows.last().map(line).unwrap_or_default());
+            write(&rows)?;
+        }
     }
-    if settings.write {
-        let path = root().join("docs/bodies.md");
-        fs::write(&path, document(&rows))
-            .map_err(|error| format!("{}: {error}", path.display()))?;
+    for case in space {
+        if is_asked(case.name()) {
+            rows.push(judge(case.as_ref(), &folder, settings.quick)?);
+            println!("{}", rows.last().map(line).unwrap_or_default());
+            write(&rows)?;
+        }
     }
     let wrong: Vec<String> = rows.into_iter().flat_map(|row| row.wrong).collect();
     if wrong.is_empty() {
@@ -254,7 +266,8 @@ fn line(row: &Row) -> String {
     )
 }
 
-fn document(rows: &[Row]) -> String {
+/// The page, with the rows of an old one that are not among the new ones before these.
+fn document(old: &str, rows: &[Row]) -> String {
     let mut text = format!(
         "# Bodies in parts
 
@@ -276,8 +289,17 @@ cells of the box gives, and no two particles are nearer than half a spacing, ima
         walls = boxes::WALLS,
         cells = boxes::CELLS
     );
-    for row in rows {
-        let _ = writeln!(text, "{}", line(row));
+    let is_new = |line: &str| {
+        let name = line.trim_start_matches("| ").split(" |").next();
+        rows.iter().any(|row| Some(row.name.as_str()) == name)
+    };
+    let kept = (old
+        .lines()
+        .skip_while(|line| !line.starts_with("|---"))
+        .skip(1))
+    .filter(|line| line.starts_with("| ") && !is_new(line));
+    for line in kept.map(str::to_owned).chain(rows.iter().map(line)) {
+        let _ = writeln!(text, "{line}");
     }
     text
 }

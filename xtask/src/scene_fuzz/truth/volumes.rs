@@ -36,7 +36,9 @@ pub(super) fn in_box(truth: &Truth, body: usize, [min, max]: [Point; 2]) -> f64 
     let mut sum = 0.0;
     for i in 0..count.pow(dimension as u32) {
         let at = [i % count, i / count % count, i / count / count];
-        let p = std::array::from_fn(|k| min[k] * f64::from(u8::from(k < dimension)) + (at[k] as f64 + 0.5) * step[k]);
+        let p = std::array::from_fn(|k| {
+            min[k] * f64::from(u8::from(k < dimension)) + (at[k] as f64 + 0.5) * step[k]
+        });
         sum += (0.5 - truth.distance(body, p) / width).clamp(0.0, 1.0);
     }
     sum * cell
