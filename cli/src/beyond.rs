@@ -13,6 +13,12 @@ use crate::scene::{Method, Role, Scene};
 /// How far beyond a side a body must reach to be told that it is cut there, in ∆s.
 const TOLD_OVER_SPACING: f64 = 1e-3;
 
+/// A body is joined with its images as long as it is no longer than so many periods.
+const MOST_PERIODS: f64 = 16.0;
+
+/// Part of a period by which a body may be longer and still be as long: numbers of single precision are.
+const AS_LONG: f64 = 1e-5;
+
 /// A part of a body smaller than this is none.
 const NOTHING: f64 = 1e-9;
 
@@ -34,6 +40,21 @@ where
     };
     for (body, built) in scene.body.iter().zip(all) {
         let bounds = built.surface.bounds();
+        let goes_on = body.role == Role::Solid && scene.packing.method == Method::Balanced;
+        let most = if goes_on { MOST_PERIODS } else { 1.0 };
+        if let Some((name, periods)) = too_long(&bounds, domain, most) {
+            return Err(fail(if goes_on {
+                format!(
+                    "body \"{}\" is {periods:.3e} times as long as the periodic box along {name}; {MOST_PERIODS} times are the most, so make the domain longer or the body shorter",
+                    body.name
+                )
+            } else {
+                format!(
+                    "body \"{}\" is {periods:.4} times as long as the periodic box along {name} and meets its own images; only solid bodies may, with method = \"balanced\"; make it no longer than the box",
+                    body.name
+                )
+            }));
+        }
         if body.role != Role::Solid || !Continued::may_go_on(&bounds, domain) {
             continue;
         }
@@ -78,6 +99,19 @@ where
         built.surface = Arc::new(continued);
     }
     Ok(told)
+}
+
+/// An axis, by name, along which a body is longer than so many periods, and how many it is.
+fn too_long<const D: usize>(
+    bounds: &Bounds<D>,
+    domain: &Domain<D>,
+    most: f64,
+) -> Option<(&'static str, f64)> {
+    let (size, period) = (bounds.size(), domain.bounds.size());
+    (["x", "y", "z"].into_iter().enumerate().take(D))
+        .map(|(axis, name)| (axis, name, size[axis] / period[axis]))
+        .find(|&(axis, _, periods)| domain.periodic[axis] && periods > most * (1.0 + AS_LONG))
+        .map(|(_, name, periods)| (name, periods))
 }
 
 /// What of an outline is drawn: the part between the open sides.

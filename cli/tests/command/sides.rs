@@ -108,6 +108,31 @@ fn what_passes_a_periodic_side_comes_back() {
     assert_eq!(report["warnings"].as_array().map(Vec::len), Some(0));
 }
 
+#[test]
+fn what_is_much_longer_than_the_box_is_refused() {
+    let strip =
+        "[[body]]\nname = \"strip\"\nshape = { box = { min = [-1e9, 0.5], max = [1e9, 1.0] } }\n";
+    let long = "[[body]]\nname = \"strip\"\nshape = { box = { min = [0, 0.5], max = [4, 1.0] } }\n";
+    let desk = Desk::new()
+        .with("long.toml", scene(0.1, CHANNEL, strip))
+        .with("twice.toml", scene(0.1, CHANNEL, long))
+        .with(
+            "hybrid.toml",
+            scene(0.1, CHANNEL, long) + "[packing]\nmethod = \"hybrid\"\n",
+        );
+    desk.refuse(
+        &["pack", "long.toml"],
+        &["\"strip\"", "times as long", "along x"],
+    );
+    desk.refuse(
+        &["pack", "hybrid.toml"],
+        &["\"strip\"", "meets its own images", "balanced"],
+    );
+    // Over itself it is endless.
+    let report = pack(&desk, "twice.toml");
+    check(&report, &[1.5], 1e-9);
+}
+
 /// A tube along z, open to nothing: its ends lie on the sides, as single precision has them.
 fn tube(length: f64) -> Vec<[[f32; 3]; 3]> {
     let place = |k: u32, z: f64| {

@@ -12,7 +12,7 @@ fn block(low: [f32; 3], size: [f32; 3], is_mirrored: bool) -> Triangles {
     (cube().into_iter())
         .map(|[a, b, c]| {
             if is_mirrored {
-                [a, c, b].map(|[x, y, z]| place([1.0 - x, y, z]))
+                [a, c, b].map(|[x, y, z]| place([x, 1.0 - y, z]))
             } else {
                 [a, b, c].map(place)
             }

@@ -216,6 +216,9 @@ pub fn within_window<const D: usize, S: Surface<D> + ?Sized>(
     found
 }
 
+/// Images of a body are joined up to so many periods away: one that is longer than twice that is not whole.
+const MOST_PERIODS: f64 = 64.0;
+
 /// How a body lies to the two sides of an axis.
 #[derive(Debug, Clone, Copy)]
 struct Reach {
@@ -236,7 +239,8 @@ impl Reach {
         let meets = domain.periodic[axis] && size > period - slack;
         let periods = if meets {
             // Half a period beyond both sides is covered, wherever in the box the middle is.
-            (0.5 + 0.5 * (size - 2.0 * slack) / period).ceil().max(1.0) as usize
+            let periods = (0.5 + 0.5 * (size - 2.0 * slack) / period).ceil();
+            periods.clamp(1.0, MOST_PERIODS) as usize
         } else {
             0
         };

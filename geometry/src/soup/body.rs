@@ -24,7 +24,7 @@ pub struct Mended {
 impl Soup {
     /// The body that the triangles bound: as they are where nothing is wrong, else after [`Soup::repaired`] (holes
     /// within [`HoleLimit::Small`]), shells that overlap joined, with what of them is inside others left
-    /// out. Shells that touch along edges or in points stay as they are. Crossings within a shell stay where the triangles have less than 1 % of the area. What was done is told.
+    /// out. Shells that touch along edges or in points stay as they are. Crossings within a shell stay where they are at most 500 and the triangles have less than 1 % of the area. What was done is told.
     ///
     /// # Errors
     /// [`GeometryError::Defective`] with every defect that is left and its cure, or what [`Mesh::new`] finds.
@@ -106,7 +106,9 @@ impl Repaired {
             }
         }
         if let Some(crossings) = report.defect(DefectKind::SelfIntersection) {
-            if crossing_area(&soup) > FEW_CROSSINGS * report.area {
+            if crossings.count > MOST_CROSSINGS
+                || crossing_area(&soup) > FEW_CROSSINGS * report.area
+            {
                 return Err(defective(&report));
             }
             done.push(Repair::LeftCrossings {
@@ -137,6 +139,9 @@ const SEVERAL: [DefectKind; 3] = [
 
 /// The part of the area that triangles may have which cross others of their shell.
 const FEW_CROSSINGS: f64 = 0.01;
+
+/// More pairs of triangles that cross than this are not few, however small they are.
+const MOST_CROSSINGS: usize = 500;
 
 /// Area of the triangles that cross others.
 fn crossing_area(soup: &Soup) -> f64 {

@@ -14,7 +14,7 @@ const ROUNDS: usize = 40;
 /// The same where the body goes on beyond a box: no tips hold what is uneven over many points, which evens out slowly. There a
 /// point goes on by this part of its last move.
 const ROUNDS_WITHOUT_ENDS: usize = 120;
-const MOMENTUM: f64 = 0.8;
+const MOMENTUM: f64 = 0.9;
 
 /// A point ends a part where the next other one is this much farther from the part's end.
 const END: f64 = 1.25;
