@@ -8,7 +8,7 @@ use sphpack_packing::{Band, Body, Estimate, FrozenLayout, PackingError, Problem}
 
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
-use crate::dimension::{Built, Dimension, Space};
+use crate::dimension::{Built, Dimension, Space, array};
 use crate::scene::{BandWidth, Fault, Frozen, Method, Role, Scene, Surroundings};
 use crate::{beyond, methods, overlap, precedence, roles, units};
 
@@ -224,6 +224,7 @@ where
             size: built.surface.bounds().size().to_vec(),
         }));
     }
+    refuse_giants(scene, &all)?;
     precedence::settle(scene, &mut all)?;
     let order = roles::order(scene, &all)?;
     let mut all: Vec<Option<Built<D>>> = all.into_iter().map(Some).collect();
@@ -343,6 +344,31 @@ where
         },
         estimate,
     ))
+}
+
+/// A body so many times larger than the box is a slip: what looks along its surface would never come to an end.
+const GIANT: f64 = 1e5;
+
+/// Bodies beside which the box is nothing.
+fn refuse_giants<const D: usize>(scene: &Scene, all: &[Built<D>]) -> Result<(), Error> {
+    let (Some(min), Some(max)) = (&scene.domain.min, &scene.domain.max) else {
+        return Ok(());
+    };
+    let domain = Bounds::new(array(min), array::<D>(max)).diagonal();
+    for (body, built) in scene.body.iter().zip(all) {
+        let times = built.surface.bounds().diagonal() / domain;
+        if times > GIANT {
+            return Err(Error::Scene {
+                path: scene.path.clone(),
+                at: None,
+                message: format!(
+                    "body \"{}\" is {times:.1e} times as large as the domain; correct its size, its scale or the domain",
+                    body.name
+                ),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Solid bodies may touch, but not claim the same room. What is in a void or a container is another matter.

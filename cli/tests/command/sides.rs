@@ -115,6 +115,10 @@ fn what_is_much_longer_than_the_box_is_refused() {
     let long = "[[body]]\nname = \"strip\"\nshape = { box = { min = [0, 0.5], max = [4, 1.0] } }\n";
     let desk = Desk::new()
         .with("long.toml", scene(0.1, CHANNEL, strip))
+        .with(
+            "many.toml",
+            scene(0.1, CHANNEL, &strip.replace("1e9", "1e3")),
+        )
         .with("twice.toml", scene(0.1, CHANNEL, long))
         .with(
             "hybrid.toml",
