@@ -13,6 +13,9 @@ use crate::scene::{Method, Role, Scene};
 /// How far beyond a side a body must reach to be told that it is cut there, in ∆s.
 const TOLD_OVER_SPACING: f64 = 1e-3;
 
+/// A box of more sites than this is refused, and everything in it would be on its sides.
+const MOST_SITES: f64 = 1e11;
+
 /// A body is joined with its images as long as it is no longer than so many periods.
 const MOST_PERIODS: f64 = 16.0;
 
@@ -38,6 +41,12 @@ where
         at: None,
         message,
     };
+    let sites: f64 = (domain.bounds.size().iter())
+        .map(|edge| edge / scene.spacing)
+        .product();
+    if sites > MOST_SITES {
+        return Ok(told);
+    }
     for (body, built) in scene.body.iter().zip(all) {
         let bounds = built.surface.bounds();
         let goes_on = body.role == Role::Solid && scene.packing.method == Method::Balanced;
