@@ -16,8 +16,9 @@ const TOLD_OVER_SPACING: f64 = 1e-3;
 /// A box of more sites than this is refused, and everything in it would be on its sides.
 const MOST_SITES: f64 = 1e11;
 
-/// A body is joined with its images as long as it is no longer than so many periods.
-const MOST_PERIODS: f64 = 16.0;
+/// A body is joined with its images as long as it is no longer than so many periods, in the plane and in space: a rod of
+/// four periods aslant took minutes.
+const MOST_PERIODS: [f64; 2] = [16.0, 2.0];
 
 /// Part of a period by which a body may be longer and still be as long: numbers of single precision are.
 const AS_LONG: f64 = 1e-5;
@@ -50,11 +51,11 @@ where
     for (body, built) in scene.body.iter().zip(all) {
         let bounds = built.surface.bounds();
         let goes_on = body.role == Role::Solid && scene.packing.method == Method::Balanced;
-        let most = if goes_on { MOST_PERIODS } else { 1.0 };
+        let most = if goes_on { MOST_PERIODS[D - 2] } else { 1.0 };
         if let Some((name, periods)) = too_long(&bounds, domain, most) {
             return Err(fail(if goes_on {
                 format!(
-                    "body \"{}\" is {periods:.3e} times as long as the periodic box along {name}; {MOST_PERIODS} times are the most, so make the domain longer or the body shorter",
+                    "body \"{}\" is {periods:.3e} times as long as the periodic box along {name}; {most} times are the most, so make the domain longer or the body shorter",
                     body.name
                 )
             } else {
