@@ -55,7 +55,7 @@ where
         if let Some((name, periods)) = too_long(&bounds, domain, most) {
             return Err(fail(if goes_on {
                 format!(
-                    "body \"{}\" is {periods:.3e} times as long as the periodic box along {name}; {most} times are the most, so make the domain longer or the body shorter",
+                    "body \"{}\" is {periods:.1} times as long as the periodic box along {name}; {most} times are the most, so make the domain longer or the body shorter",
                     body.name
                 )
             } else {
