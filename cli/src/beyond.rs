@@ -16,8 +16,8 @@ const TOLD_OVER_SPACING: f64 = 1e-3;
 /// A box of more sites than this is refused, and everything in it would be on its sides.
 const MOST_SITES: f64 = 1e11;
 
-/// A body is joined with its images as long as it is no longer than so many periods, in the plane and in space: a rod of
-/// four periods aslant took minutes.
+/// A body is joined with its images as long as it is no longer than so many periods, in the plane and in space: there
+/// the images of a long rod aslant are many meshes to join.
 const MOST_PERIODS: [f64; 2] = [16.0, 2.0];
 
 /// Part of a period by which a body may be longer and still be as long: numbers of single precision are.

@@ -11,15 +11,12 @@ use sphpack_neighbors::{Domain, point};
 use self::contents::pieces_in;
 use self::moved::Moved;
 use super::window::{holds, part_of_way};
-use super::{Continued, Reach, Whole, groups_of_images, into, is_moved, moved_by, slack, snapped};
+use super::{Continued, Reach, Whole, into, moved_by, parts_by_images, slack, snapped};
 use crate::GeometryError;
 use crate::mesh::{Mesh, triangle};
 use crate::sample::{Candidates, spread};
 use crate::soup::Soup;
 use crate::surface::{Closest, Features, Surface};
-
-/// Pieces of a mesh within the box with less volume than this, in parts of the box's, are none.
-const NOTHING: f64 = 1e-12;
 
 /// A mesh and its images are joined where their volume is right to this part.
 const VOLUME_WITHIN: f64 = 1e-5;
@@ -255,16 +252,7 @@ impl Whole<3> for Mesh {
     }
 
     fn parts_in(&self, domain: &Domain<3>) -> Vec<Arc<dyn Whole<3>>> {
-        let nothing = NOTHING * domain.bounds.volume();
-        let has_room = |part: &Self| part.contents(domain).1 > nothing;
-        let parts: Vec<Self> = self.pieces().into_iter().filter(has_room).collect();
-        let slack = 10.0 * slack(domain);
-        let image = |a: usize, b: usize, shift| {
-            is_moved(&parts[a].bounds(), &parts[b].bounds(), shift, slack)
-                && (parts[a].volume() - parts[b].volume()).abs()
-                    <= slack * (parts[a].measure() + parts[b].measure())
-        };
-        let groups = groups_of_images(parts.len(), domain, image);
+        let (parts, groups) = parts_by_images(self.pieces(), domain);
         if groups.len() < 2 {
             return Vec::new();
         }

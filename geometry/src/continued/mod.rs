@@ -290,6 +290,26 @@ fn moved_by(x: f64, step: i32, [min, max]: [f64; 2]) -> f64 {
     }
 }
 
+/// Pieces within the box with less room than this, in parts of the box's, are none.
+const NOTHING: f64 = 1e-12;
+
+/// The pieces that the box has room for, and their numbers, images of each other together.
+fn parts_by_images<const D: usize, W: Whole<D>>(
+    pieces: Vec<W>,
+    domain: &Domain<D>,
+) -> (Vec<W>, Vec<Vec<usize>>) {
+    let nothing = NOTHING * domain.bounds.volume();
+    let mut parts = pieces;
+    parts.retain(|part| part.contents(domain).1 > nothing);
+    let slack = 10.0 * slack(domain);
+    let groups = groups_of_images(parts.len(), domain, |a, b, shift| {
+        let (a, b) = (&parts[a], &parts[b]);
+        is_moved(&a.bounds(), &b.bounds(), shift, slack)
+            && (a.volume() - b.volume()).abs() <= slack * (a.measure() + b.measure())
+    });
+    (parts, groups)
+}
+
 /// Numbers of things, those that are images of each other together: `image(a, b, shift)` tells whether `b` is `a` moved by
 /// `shift`.
 fn groups_of_images<const D: usize>(

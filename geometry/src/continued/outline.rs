@@ -5,16 +5,13 @@ use std::sync::Arc;
 use sphpack_neighbors::{Bounds, Domain, point};
 
 use super::window::{holds, part_of_way};
-use super::{Continued, Reach, Whole, groups_of_images, into, is_moved, moved_by, slack, snapped};
+use super::{Continued, Reach, Whole, into, moved_by, parts_by_images, slack, snapped};
 use crate::GeometryError;
 use crate::outline::Outline;
 use crate::outline::booleans::{Filled, resolved};
 use crate::sample::{Candidates, Ring, along};
 use crate::segment::Segment;
 use crate::surface::{Closest, Features, Surface};
-
-/// Pieces of an outline within the box with less area than this, in parts of the box's, are none.
-const NOTHING: f64 = 1e-12;
 
 type Loop = Vec<[f64; 2]>;
 
@@ -241,16 +238,7 @@ impl Whole<2> for Outline {
     }
 
     fn parts_in(&self, domain: &Domain<2>) -> Vec<Arc<dyn Whole<2>>> {
-        let nothing = NOTHING * domain.bounds.volume();
-        let has_room = |part: &Self| part.contents(domain).1 > nothing;
-        let parts: Vec<Self> = self.pieces().into_iter().filter(has_room).collect();
-        let slack = 10.0 * slack(domain);
-        let image = |a: usize, b: usize, shift| {
-            is_moved(&parts[a].bounds(), &parts[b].bounds(), shift, slack)
-                && (parts[a].volume() - parts[b].volume()).abs()
-                    <= slack * (parts[a].measure() + parts[b].measure())
-        };
-        let groups = groups_of_images(parts.len(), domain, image);
+        let (parts, groups) = parts_by_images(self.pieces(), domain);
         if groups.len() < 2 {
             return Vec::new();
         }
