@@ -126,6 +126,10 @@ fn what_is_much_longer_than_the_box_is_refused() {
         );
     desk.refuse(
         &["pack", "long.toml"],
+        &["\"strip\"", "times as large as the domain"],
+    );
+    desk.refuse(
+        &["pack", "many.toml"],
         &["\"strip\"", "times as long", "along x"],
     );
     desk.refuse(
