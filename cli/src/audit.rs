@@ -1,5 +1,6 @@
 //! What a packing must be before anyone is told that it is done.
 
+mod anew;
 mod anyone;
 
 use std::time::Instant;
@@ -107,6 +108,7 @@ impl Audit {
             audit.volumes(scene, solution, volumes);
             audit.sides(scene, solution);
             audit.density(scene, solution);
+            audit.sums(solution);
         }
         if !audit.passed {
             audit.messages.push(cure(scene));
@@ -168,6 +170,14 @@ impl Audit {
         }
     }
 
+    /// Γ and the residual are what the particles give, frozen ones included.
+    fn sums<const D: usize>(&mut self, solution: &Solution<D>) {
+        if let Some((i, message)) = anew::differs(solution) {
+            let message = format!("{message}; this is a fault of sphpack");
+            self.found(message, Some(solution.packed.particles.position[i]));
+        }
+    }
+
     /// No two particles are in the room of one.
     fn pairs<const D: usize>(&mut self, solution: &Solution<D>) {
         let quality = &solution.quality;
@@ -203,7 +213,7 @@ impl Audit {
                 .is_none_or(|body| body.role == Role::Solid)
         };
         for (number, body) in problem.bodies.iter().enumerate() {
-            if !(info.fills_bodies && solid(number)) {
+            if !solid(number) {
                 continue;
             }
             let (asked, has) = (rooms[number], volumes[number]);

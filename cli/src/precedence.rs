@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sphpack_geometry::{Continued, Cylinder, GeometryError, LevelSet, Mesh, Outline, Surface};
+use sphpack_geometry::{Continued, Cylinder, GeometryError, LevelSet, Mesh, Outline, Surface, cut_on_grid};
 use sphpack_neighbors::Domain;
 
 use crate::Error;
@@ -25,6 +25,9 @@ const MOVED: f64 = 1e-5;
 /// Bodies by formula that are nowhere deeper in each other than this, in ∆s, stay as they are: of a ball of R = 5 ∆s the
 /// grid's own error is 0.05 %, a cap of that depth 2 × 10⁻⁶.
 const TOUCHING_ON_GRID: f64 = 1e-2;
+
+/// Room that a cut on a grid may lose, in ∆s³: a fifth of what a body may be off by.
+const LOST_ON_GRID: f64 = 0.1;
 
 /// How far the sides of a prism that stands for a cylinder are from it, in ∆s.
 const ROUND_WITHIN: f64 = 1e-4;
@@ -62,7 +65,7 @@ pub(crate) trait Cuttable<const D: usize> {
     ///
     /// Exact in the plane, and in space where both are meshes or boxes; what is thinner than 10⁻⁶ of the body does not count
     /// there, neither as an overlap nor as a piece, nor what is deeper nowhere than 10⁻⁶ ∆s in space. Other bodies in space are cut on a grid with
-    /// cells of ∆s/4 and come out as meshes: within some ∆s²/128R of a surface that bends by radius R, with sharp edges
+    /// cells of ∆s/4, finer where slices would be lost, and come out as meshes: within some ∆s²/128R of a surface that bends by radius R, with sharp edges
     /// where the two meet. Of a ball of R = 5 ∆s cut by another of 4 ∆s the volume is then off by less than 0.05 %.
     fn minus(
         lower: &Self::Operand,
@@ -214,8 +217,9 @@ impl Cuttable<3> for Space<3> {
         if !overlaps(TOUCHING_ON_GRID) {
             return Ok(Left::All);
         }
-        let set = |body: &Solid| LevelSet::of(body.shared(), spacing / CELLS_PER_SPACING);
-        Ok(set(lower)?.minus(&set(higher)?)?.mesh()?.into())
+        let cell = spacing / CELLS_PER_SPACING;
+        let lost = LOST_ON_GRID * spacing.powi(3);
+        Ok(cut_on_grid(lower.shared(), higher.shared(), cell, lost)?.into())
     }
 
     fn rebuilt(cut: Mesh) -> Built<3> {

@@ -226,9 +226,6 @@ fn too_small<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Vec<Strin
     let Solution {
         problem, labels, ..
     } = solution;
-    if !scene.packing.method.info().fills_bodies {
-        return Vec::new();
-    }
     let mut has_some = vec![false; problem.bodies.len()];
     for body in labels.body.iter().flatten() {
         has_some[usize::from(*body)] = true;

@@ -16,6 +16,16 @@ pub enum GeometryError {
         /// How far the surface was moved, scene units.
         depth: f64,
     },
+    /// What a cut leaves or takes is thinner in places than the finest grid's cells.
+    #[error(
+        "a volume of {volume} gets lost on a grid with cells of {cell}: what is cut off or left is thinner than that in places; move the bodies so that one passes the other's surface or stays well within it, use a smaller spacing, or give both as meshes, which are cut exactly"
+    )]
+    LostOnGrid {
+        /// Edge of the cells, scene units.
+        cell: f64,
+        /// The volume, scene units to the power 3.
+        volume: f64,
+    },
     /// The strips that an outline's sides sweep cross each other too often to be joined.
     #[error(
         "the outline is too ragged to be moved by {distance}: what its sides sweep crosses itself too often; leave out detail that is finer than this, or use a smaller spacing, or surface = \"exact\""

@@ -32,7 +32,7 @@
 //! | loops with defects: check, mend, join | [`Sketch`], [`Sketch::read`] |
 //! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
 //! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`], [`Repeated`] (in a periodic box), [`Continued`] (beyond a box's sides) |
-//! | distances on a grid, and Booleans of them | [`LevelSet`] |
+//! | distances on a grid, and Booleans of them | [`LevelSet`], [`cut_on_grid`] |
 //! | points: even ([`Surface::sample`]), by a weight, for thin bodies | [`sample_weighted`], [`sample_particles`], [`thickness()`] |
 //! | underneath | [`Bvh`] |
 //! | classical inside tests (000 eq. 14) | [`angle_sum`], [`winding_number`], [`crossing_number`] |
@@ -68,7 +68,7 @@ pub use bvh::Bvh;
 pub use continued::{Continued, within_window};
 pub use error::GeometryError;
 pub use level_inset::LevelInset;
-pub use level_set::LevelSet;
+pub use level_set::{LevelSet, cut_on_grid};
 pub use mesh::{EDGE_DEGREES, Mesh};
 pub use outline::{
     CORNER_DEGREES, MITRE_LIMIT, Outline, angle_sum, crossing_number, winding_number,

@@ -150,3 +150,31 @@ fn a_hole_in_the_density_is_found() {
         }
     });
 }
+
+#[test]
+fn sums_that_are_not_those_of_the_neighbours_are_found() {
+    let (scene, mut solution) = packed();
+    let volumes = content::volumes(&solution.problem, &solution);
+    let i = (solution.packed.particles.kind.iter())
+        .position(|&kind| kind != Kind::Frozen)
+        .expect("a particle");
+    solution.fields.gamma[i] += 1e-8;
+    let found = |solution: &Solution<2>| Audit::of(&scene, solution, &volumes).messages.concat();
+    assert!(found(&solution).contains("gamma of particle"));
+    solution.fields.gamma[i] -= 1e-8;
+    solution.fields.gradient[i][0] *= 1.01;
+    assert!(found(&solution).contains("residual of particle"));
+    // A rim that is thinner than the kernel's reach.
+    solution.fields.gradient[i][0] /= 1.01;
+    let frozen = (solution.packed.particles.kind.iter()).rposition(|&kind| kind == Kind::Frozen);
+    let edge = (solution.packed.particles.position.iter())
+        .zip(&solution.packed.particles.kind)
+        .position(|(p, &kind)| kind != Kind::Frozen && p[0] > 1.8);
+    assert!(frozen.is_some() && edge.is_some());
+    for p in &mut solution.packed.particles.position {
+        if p[0] > 2.2 {
+            p[0] += 10.0;
+        }
+    }
+    assert!(found(&solution).contains("is a fault of sphpack"));
+}

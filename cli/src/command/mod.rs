@@ -4,11 +4,13 @@
 //! Nothing is coloured. Exit statuses: see [`crate::DONE`] and its neighbours.
 
 mod arguments;
+mod at_once;
 mod check;
 mod init;
 mod interrupt;
 mod keeping;
 mod list;
+mod memory_guard;
 mod outputs;
 mod pack;
 mod plain_text;

@@ -11,12 +11,12 @@ use super::arguments::PackArguments;
 use super::keeping::Keeping;
 use super::plain_text::visible;
 use super::progress::{Watcher, duration};
-use super::{interrupt, outputs, say, summary, threads};
+use super::{interrupt, memory_guard, outputs, say, summary, threads};
 use crate::Error;
 use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};
 use crate::files::{ParticleFormat, WholeFiles, compare};
 use crate::picture::{PictureFormat, Subject, draw};
-use crate::plan::{dimension, plan};
+use crate::plan::{available_bytes, dimension, plan};
 use crate::report::peak_memory_bytes;
 use crate::run::{Options, Outcome, run as pack};
 use crate::scene::{Finish, METHODS, Method, PackingSpec, Scene, advice};
@@ -46,6 +46,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     }
     let keeping = Keeping::new(arguments, &scene, &files.particles[0].0)?;
     interrupt::watch(arguments.quiet)?;
+    memory_guard::watch(available_bytes());
     let mut watcher = Watcher::new(arguments.quiet, keeping);
     let outcome = pack(&scene, &Options::default(), &mut watcher);
     let keeping = watcher.end();

@@ -37,7 +37,7 @@ impl Watcher {
     /// Nothing is shown where `is_quiet`.
     pub(super) fn new(is_quiet: bool, keeping: Keeping) -> Self {
         let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        Self {
+        let watcher = Self {
             style: match (is_quiet, std::io::stderr().is_terminal() && !is_dumb) {
                 (true, _) => Style::Silent,
                 (false, true) => Style::Redrawn,
@@ -46,12 +46,15 @@ impl Watcher {
             shown: None,
             anchors: [None; 2],
             keeping,
-        }
+        };
+        // Before anything is packed bodies are read, mended and cut.
+        watcher.write("bodies     …");
+        watcher
     }
 
     /// Clears the redrawn line, and gives back who keeps the checkpoints.
     pub(super) fn end(self) -> Keeping {
-        if self.style == Style::Redrawn && self.shown.is_some() {
+        if self.style == Style::Redrawn {
             let _ = write!(std::io::stderr(), "\r\x1b[K");
         }
         self.keeping
@@ -70,11 +73,15 @@ impl Watcher {
             return;
         }
         self.shown = Some((progress.phase, Instant::now()));
-        let line = self.line(progress);
+        self.write(&self.line(progress));
+    }
+
+    fn write(&self, line: &str) {
         let mut to = std::io::stderr();
         let _ = match self.style {
+            Style::Silent => Ok(()),
             Style::Redrawn => write!(to, "\r  {line}\x1b[K").and_then(|()| to.flush()),
-            _ => writeln!(to, "  {line}"),
+            Style::Plain => writeln!(to, "  {line}"),
         };
     }
 
@@ -129,6 +136,9 @@ impl Observer for Watcher {
                 }
                 _ => self.anchors = [Some(here); 2],
             }
+        }
+        if matches!(progress.phase, Phase::Capture | Phase::Settling) {
+            interrupt::has_begun();
         }
         self.show(progress);
         let is_stopped = interrupt::is_asked();

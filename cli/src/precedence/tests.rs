@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;
-use sphpack_geometry::{Ball, Similarity};
+use sphpack_geometry::{Ball, Similarity, Torus};
 
 use super::*;
 
@@ -171,4 +171,32 @@ fn volumes_add_up_at_any_depth() {
         Space::<3>::minus(&ball(0.0), &ball(3.9), SPACING),
         Ok(Left::Part(_))
     ));
+}
+
+/// A ring through a board: its lower half is left, and above the board a ring with the section of a circle's segment.
+#[test]
+fn thin_slices_are_not_lost_on_a_grid() {
+    let (major, minor) = (1.84, 0.94);
+    let mut refined = 0;
+    for n in 1..=16 {
+        let height = 0.03 * f64::from(n);
+        let ring = Torus::new([0.03 * height, 0.0, 0.01], [0.0, 0.0, 1.0], major, minor);
+        let board = [[-4.0, -4.0, 0.01], [4.0, 4.0, 0.01 + minor - height]];
+        let left = Space::<3>::minus(
+            &Solid::Smooth(Arc::new(ring.expect("a ring"))),
+            &solid(board[0], board[1], 0.0),
+            SPACING,
+        );
+        let chord = minor - height;
+        let segment = minor * minor * (chord / minor).acos()
+            - chord * (minor * minor - chord * chord).sqrt();
+        let exact = TAU * major * (0.25 * TAU * minor * minor + segment);
+        let Ok(Left::Part(left)) = left else {
+            panic!("{height}: not cut");
+        };
+        let off = (left.volume() - exact).abs();
+        assert!(off < LOST_ON_GRID + 3e-3 * exact, "{height}: {off}");
+        refined += usize::from(left.triangles().len() > 20_000);
+    }
+    assert!(refined > 0, "cells of a quarter of ∆s were enough");
 }

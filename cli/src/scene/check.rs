@@ -347,6 +347,16 @@ impl Scene {
                 ),
             );
         }
+        let solid = (self.body.iter()).find(|body| body.role == Role::Solid);
+        if let (false, Some(body)) = (info.fills_bodies, solid) {
+            return fault(
+                &at("method"),
+                format!(
+                    "the method \"{}\" packs fluid between walls and would leave body \"{}\" empty, which is solid; give that the role \"void\" to keep the fluid out or \"container\" to hold it, or use method = \"balanced\"",
+                    info.name, body.name
+                ),
+            );
+        }
         let is_hybrid = packing.method == Method::Hybrid;
         let minimises = info.minimises || (is_hybrid && packing.minimiser.is_some());
         if !minimises && packing.finish == Finish::Consistent {

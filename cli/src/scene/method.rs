@@ -50,7 +50,7 @@ pub struct MethodInfo {
     pub lattices: Option<[Lattice; 2]>,
     /// Whether a paper describes it.
     pub is_published: bool,
-    /// Whether it fills bodies with particles of their volume; else they are walls.
+    /// Whether it fills solid bodies with particles; one that does not is for voids and containers.
     pub fills_bodies: bool,
     /// Whether all its particles have the box's volume together.
     pub fills_box: bool,

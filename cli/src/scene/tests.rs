@@ -333,6 +333,12 @@ fn numbers_out_of_range_are_named() {
         11,
         &["finish = \"even\""],
     );
+    // It packs fluid between walls.
+    refuse(
+        &format!("{GOOD}[packing]\nmethod = \"ppa\""),
+        10,
+        &["\"cylinder\"", "role \"void\"", "method = \"balanced\""],
+    );
     refuse(
         &format!(
             "{GOOD}[[body]]\nname = \"cylinder\"\nshape = {{ naca = {{ digits = \"0015\", chord = 1 }} }}"

@@ -69,6 +69,34 @@ fn the_first_writes_what_there_is() {
 }
 
 #[test]
+fn before_particles_move_it_ends_at_once() {
+    // So many squares in one another take minutes to be told apart.
+    let squares: String = (1..40_000)
+        .map(|n| {
+            let x = f64::from(n) * 1e-3;
+            format!("{x},{x}\n-{x},{x}\n-{x},-{x}\n{x},-{x}\n\n")
+        })
+        .collect();
+    let desk = Desk::new().with("squares.csv", squares);
+    let mut child = desk
+        .command(&["pack", "squares.csv", "--spacing", "0.5", "-o", "out.csv"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let mut lines = BufReader::new(child.stderr.take().expect("piped")).lines();
+    assert!(
+        (lines.by_ref().map_while(Result::ok)).any(|line| line.contains("bodies")),
+        "progress is told"
+    );
+    interrupt(&child);
+    let rest: Vec<String> = lines.map_while(Result::ok).collect();
+    assert_eq!(child.wait().expect("an end").code(), Some(130));
+    assert!(rest.concat().contains("nothing was written"), "{rest:?}");
+    assert_eq!(desk.files(), ["squares.csv"]);
+}
+
+#[test]
 fn the_second_ends_at_once() {
     let desk = desk();
     let mut child = at_work(&desk);

@@ -4,6 +4,7 @@ mod blocks;
 mod cells;
 mod contour;
 mod crossings;
+mod cut;
 mod field;
 mod fit;
 mod patches;
@@ -18,6 +19,7 @@ use crate::{GeometryError, Surface};
 use blocks::Blocks;
 use field::{Boolean, Both, Exact};
 
+pub use cut::cut_on_grid;
 pub(crate) use field::Field;
 
 /// Half the width of the band in which distances are stored, in cells.

@@ -92,7 +92,7 @@ const SMALL_FORCE: f64 = 1e-3;
 
 /// Nor where the largest force has not halved within so many evaluations (times the minimiser's pace): what comes to rest
 /// at all does within some hundred.
-const LONG_PATIENCE: usize = 3000;
+const LONG_PATIENCE: usize = 1500;
 
 impl Settling {
     /// The levelling that pays at an h/∆s: 10 from 1.2 on, less below, as the fourth power. With a shorter kernel every

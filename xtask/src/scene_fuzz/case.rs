@@ -111,6 +111,16 @@ impl Case {
         new
     }
 
+    /// With voids for solid bodies: for a method that fills none.
+    pub(super) fn emptied(mut self) -> Self {
+        for body in &mut self.bodies {
+            if body.role == Role::Solid {
+                body.role = Role::Void;
+            }
+        }
+        self
+    }
+
     /// The method that it asks for.
     pub(super) fn method(&self) -> &'static str {
         self.method.unwrap_or("balanced")

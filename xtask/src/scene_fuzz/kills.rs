@@ -115,8 +115,11 @@ fn work(
             eprintln!("scene {number}, {kills} of {} kills", settings.kills);
         }
         let random = &mut Random::new(!settings.seed, number);
-        let case = generate::case(settings.seed, number).placed();
+        let mut case = generate::case(settings.seed, number).placed();
         let method = METHODS[number as usize % if case.dimension == 2 { 8 } else { 7 }];
+        if method == "ppa" {
+            case = case.emptied();
+        }
         let folder = scratch.join("scene");
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;

@@ -131,6 +131,10 @@ pub(super) fn case(seed: u64, number: u64) -> Case {
             *x = digits.of(random.between(-far, far)) * case.spacing;
         }
     }
+    // Now and then with a solid body, which is refused.
+    if case.method() == "ppa" && random.chance(0.9) {
+        case = case.emptied();
+    }
     case
 }
 
