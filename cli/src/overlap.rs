@@ -104,7 +104,11 @@ fn deepest<const D: usize>(
             if !within.contains(p) {
                 continue;
             }
-            let depth = -b.closest(p).distance;
+            let mut depth = -b.closest(p).distance;
+            if behind > 0.0 && depth > slack {
+                // Behind something thinner it is in the open again.
+                depth = depth.min(-a.closest(p).distance);
+            }
             if depth > slack && best.is_none_or(|(_, d)| depth > d) {
                 best = Some((p, depth));
             }
@@ -158,5 +162,8 @@ mod tests {
         check(&[square(0.0, 0.0), square(1.0, 0.3)], false);
         check(&[square(0.0, 0.0), square(0.95, 0.95)], true);
         check(&[square(0.0, 0.0), square(0.0, 0.0)], true);
+        // A sheet that is thinner than the step behind its surface.
+        let sheet = body(Cuboid::new([0.0, -0.01], [1.0, 0.0]).unwrap());
+        check(&[sheet, square(0.0, -1.01)], false);
     }
 }

@@ -1,5 +1,5 @@
-//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | kills | faults | reproduce-paper | balanced | compare |
-//! corpora | lattices | speed | bodies | round-trip`.
+//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | kills | faults | reliability | reproduce-paper |
+//! balanced | compare | corpora | lattices | speed | bodies | round-trip`.
 
 mod accelerations;
 mod agitators;
@@ -21,6 +21,7 @@ mod lattices;
 mod mangle;
 mod marks;
 mod parsed;
+mod reliability;
 mod reproduce;
 mod rest;
 mod round_trip;
@@ -49,11 +50,14 @@ cargo xtask TASK
   fuzz --scene-files N [--seed N] [--write]
                               damaged scene files for the parser and the plan, in process; 100000 is the long form,
                               --write also writes docs/reliability.md
-  kills [--runs N] [--seed N] [--program FILE]
-                              runs of random scenes, killed N times (200) and resumed: they must come to the same bytes
+  kills [--runs N] [--seed N] [--program FILE] [--write]
+                              runs of random scenes, killed N times (200) and resumed: they must come to the same bytes;
+                              --write also writes docs/reliability.md
   faults [--runs N] [--seed N] [--only FAULT] [--program FILE] [--write]
                               the command where folders, disks, memory, threads, inputs fail it (500 runs): no panic, outputs
                               whole or as they were, nothing left behind; --write also writes docs/reliability.md
+  reliability                 the long forms of random scenes, kills, faults and scene files; writes docs/reliability.md
+                              (some hours)
   reproduce-paper [--quick] [--only SCENE] [--data DIR] [--write]
                               the figures of paper 001, published beside ours;
                               --quick leaves out the long runs,
@@ -106,6 +110,7 @@ fn main() -> ExitCode {
             let settings = scene_fuzz::faults::Settings::parse(rest);
             settings.and_then(|s| scene_fuzz::faults::run(&s))
         }
+        Some("reliability") => reliability::run(),
         Some("reproduce-paper") => {
             reproduce::Settings::parse(rest).and_then(|s| reproduce::run(&s))
         }

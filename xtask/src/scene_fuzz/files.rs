@@ -36,7 +36,7 @@ const BLOCK: usize = 256;
 pub(crate) struct Settings {
     files: usize,
     seed: u64,
-    write: bool,
+    pub(crate) write: bool,
 }
 
 impl Settings {

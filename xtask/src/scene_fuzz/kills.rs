@@ -9,6 +9,7 @@ use std::time::{Duration, Instant, SystemTime};
 use serde_json::Value;
 
 use super::random::Random;
+use crate::marks;
 use super::{build, generate, trial};
 
 /// What to run.
@@ -18,6 +19,7 @@ pub(crate) struct Settings {
     seed: u64,
     /// The command, where it is not to be built.
     program: Option<PathBuf>,
+    pub(crate) write: bool,
 }
 
 impl Settings {
@@ -26,6 +28,7 @@ impl Settings {
             kills,
             seed: 0,
             program: None,
+            write: false,
         }
     }
 
@@ -33,6 +36,10 @@ impl Settings {
         let mut settings = Self::new(200);
         let mut arguments = arguments.iter();
         while let Some(name) = arguments.next() {
+            if name == "--write" {
+                settings.write = true;
+                continue;
+            }
             let value = arguments.next().ok_or(format!("{name} needs a value"))?;
             let wrong = |_| format!("{name} is {value}; it must be a whole number");
             match name.as_str() {
@@ -89,7 +96,11 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let result = work(settings, &program, &scratch);
     let _ = fs::remove_dir_all(&scratch);
     let rows = result?;
-    print!("{}", table(&rows));
+    let table = format!("| seed {} {}", settings.seed, table(&rows));
+    print!("{table}");
+    if settings.write {
+        marks::write("kills", &table)?;
+    }
     let faults: Vec<&String> = rows.values().flat_map(|row| &row.faults).collect();
     faults.iter().for_each(|fault| println!("{fault}"));
     match faults.len() {
@@ -327,7 +338,7 @@ fn forget_times(report: &mut Value) {
 
 fn table(rows: &BTreeMap<&'static str, Row>) -> String {
     let mut text =
-        "| method | scenes | kills | resumed | leftovers cleaned | not the same |\n|---|---|---|---|---|---|\n"
+        "| scenes | kills | resumed | leftovers cleaned | not the same |\n|---|---|---|---|---|---|\n"
             .to_owned();
     let mut line = |name: &str, counts: [usize; 5]| {
         let cells = counts.map(|count| count.to_string()).join(" | ");

@@ -42,12 +42,12 @@ const MOST_TRIALS: [usize; 2] = [40, 6];
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
     scenes: usize,
-    seed: u64,
+    pub(crate) seed: u64,
     /// The one scene to run, and to show.
     only: Option<usize>,
     /// The command, where it is not to be built.
     program: Option<PathBuf>,
-    write: bool,
+    pub(crate) write: bool,
 }
 
 impl Settings {
