@@ -37,6 +37,7 @@ pub(crate) fn run() -> Result<(), String> {
         &["doc", "--workspace", "--no-deps"],
         &[("RUSTDOCFLAGS", "-D warnings")],
     )?;
+    deny()?;
     // The README's test command.
     cargo(&["test", "--workspace"], &[])?;
     let quick = reproduce::Settings {
@@ -50,6 +51,25 @@ pub(crate) fn run() -> Result<(), String> {
     kills::run(&kills::Settings::new(KILLS))?;
     faults::run(&faults::Settings::new(FAULTS))?;
     files::run(&files::Settings::new(SCENE_FILES))
+}
+
+/// Licences, versions and sources of what the project builds on, where cargo-deny is installed; advisories too where their
+/// list is there.
+fn deny() -> Result<(), String> {
+    let is_installed = Command::new("cargo-deny").arg("--version").output();
+    if !is_installed.is_ok_and(|answer| answer.status.success()) {
+        eprintln!("── cargo deny is not installed: left out");
+        return Ok(());
+    }
+    cargo(
+        &["deny", "--offline", "check", "licenses", "bans", "sources"],
+        &[],
+    )?;
+    if cargo(&["deny", "fetch", "db"], &[]).is_err() {
+        eprintln!("── the list of advisories cannot be had: left out");
+        return Ok(());
+    }
+    cargo(&["deny", "check", "advisories"], &[])
 }
 
 fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {
