@@ -127,8 +127,10 @@ impl<const D: usize> Grid<'_, D> {
                 .iter()
                 .any(|node| point::dot(node.1.normal, nodes[0].1.normal) < TURN);
             if !bends || width == 1 {
-                let patch = self.march(&nodes);
+                let mut patch = self.march(&nodes);
                 if !patch.is_empty() {
+                    // Seven facets in the mean, in room for sixteen.
+                    patch.shrink_to_fit();
                     out.push(patch);
                 }
                 return;
