@@ -119,8 +119,8 @@ impl<const D: usize> Confinement<D> {
         smoothing_length: f64,
     ) -> Self {
         let bin = kernel.support_over_h() * smoothing_length;
-        let mut facets = Vec::new();
-        let mut elements = Vec::new();
+        let mut facets = Vec::with_capacity(patches.iter().map(Vec::len).sum());
+        let mut elements = Vec::with_capacity(patches.len());
         for patch in patches {
             let begin = facets.len();
             let (mut center, mut area, mut size) = ([0.0; D], [0.0; D], 0.0);
@@ -177,6 +177,11 @@ impl<const D: usize> Confinement<D> {
             bin,
             near,
         }
+    }
+
+    /// How many patches there are, periodic images included.
+    pub fn patches(&self) -> usize {
+        self.centers.len()
     }
 
     /// Blocks of the patches whose middle may be within the support of a place.

@@ -129,7 +129,7 @@ impl<const D: usize> Grid<'_, D> {
             if !bends || width == 1 {
                 let mut patch = self.march(&nodes);
                 if !patch.is_empty() {
-                    // Seven facets in the mean, in room for sixteen.
+                    // They are many, and each has grown by doubling.
                     patch.shrink_to_fit();
                     out.push(patch);
                 }
