@@ -53,8 +53,9 @@ pub(crate) struct Prepared<const D: usize> {
 /// Particles are numbered with 32 bits.
 const MAX_PARTICLES: f64 = 4e9;
 
-/// Bytes of a particle in a table of its own, beside that of all, and where a file is read again: its text or bytes and its
-/// columns, three words among them. Peaks of files of all formats, with frozen particles and without, took 315.
+/// Bytes of a particle in a table of its own, beside that of all, and where a file is read again: its text or bytes
+/// and its columns, three words among them. Peaks of files of all formats, with frozen particles and without, took
+/// 315.
 const ROW_BYTES: f64 = 66.0;
 const READ_BYTES: f64 = 315.0;
 

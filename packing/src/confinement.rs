@@ -18,10 +18,13 @@ use facets::{Facet, Patch, facets};
 /// Edge of the cells that cut the surface into patches, in ∆s: one patch is one term of the gradient's sum.
 const CELL_OVER_SPACING: [f64; 2] = [1.0 / 12.0, 1.0 / 4.0];
 
-/// Patches on a ∆s^(D−1) of surface: 1.5 for each face of a cell, counted on discs, balls and boxes.
+/// Patches on a ∆s^(D−1) of surface: 1.5 for each face of a cell.
 pub(crate) fn patches_over_spacing(dimension: usize) -> f64 {
     1.5 * CELL_OVER_SPACING[dimension - 2].powi(1 - dimension as i32)
 }
+
+/// Patches along a ∆s of a sharp edge in space, where cells are a quarter as large: by the memory of two boxes.
+pub(crate) const PATCHES_ALONG_EDGE: f64 = 130.0;
 
 /// What the exterior of a domain adds to Γ and ∇Γ of a particle inside, as if it were full of matter of density 1.
 ///
@@ -39,7 +42,8 @@ pub struct Confinement<const D: usize> {
     kernel: KernelKind,
     smoothing_length: f64,
     domain: Domain<D>,
-    /// Middles of the patches, and their areas, outward and as long as they are large: the gradient's loop reads these alone.
+    /// Middles of the patches, and their areas, outward and as long as they are large: the gradient's loop reads these
+    /// alone.
     centers: Vec<[f64; D]>,
     areas: Vec<[f64; D]>,
     /// The facets of every patch, and how far it is moved.
@@ -52,8 +56,8 @@ pub struct Confinement<const D: usize> {
     near: HashMap<[i64; D], Vec<Range<usize>>>,
 }
 
-/// Some patches of one bin, that are passed by together where all are out of reach: of what is in the bins around a place
-/// two thirds are.
+/// Some patches of one bin, that are passed by together where all are out of reach: of what is in the bins around a
+/// place two thirds are.
 #[derive(Debug, Clone)]
 struct Block<const D: usize> {
     bounds: Bounds<D>,
@@ -119,8 +123,8 @@ impl<const D: usize> Confinement<D> {
         smoothing_length: f64,
     ) -> Self {
         let bin = kernel.support_over_h() * smoothing_length;
-        let mut facets = Vec::with_capacity(patches.iter().map(Vec::len).sum());
-        let mut elements = Vec::with_capacity(patches.len());
+        let mut facets = Vec::new();
+        let mut elements = Vec::new();
         for patch in patches {
             let begin = facets.len();
             let (mut center, mut area, mut size) = ([0.0; D], [0.0; D], 0.0);

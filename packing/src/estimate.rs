@@ -1,14 +1,15 @@
 //! What a packing will take, told from volumes alone.
 
-use crate::confinement::patches_over_spacing;
+use crate::confinement::{PATCHES_ALONG_EDGE, patches_over_spacing};
 use crate::problem::{PackingError, Problem};
 use crate::slabs;
+use sphpack_neighbors::point;
 
 #[cfg(test)]
 mod tests;
 
-/// What a method does, as far as it decides how much time and memory a packing takes. Pairs of numbers are for the plane
-/// and for space. How the numbers are checked: `cargo xtask estimates`.
+/// What a method does, as far as it decides how much time and memory a packing takes. Pairs of numbers are for the
+/// plane and for space. How the numbers are checked: `cargo xtask estimates`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Work {
     /// Evaluations of density and force until particles are at rest, in the middle of what scenes take.
@@ -71,35 +72,41 @@ pub struct Estimate {
 /// Bytes of a process that packs next to nothing: 14.5 MiB.
 const LEAST_BYTES: f64 = 1.5e7;
 
-/// Bytes of a particle as it is kept; of one that is seen, in list and slots. By the peaks of settling 350,000 particles in
-/// space: 460 a particle with the method hybrid, where all are seen, of which the candidates are 190.
+/// Bytes of a particle as it is kept; of one that is seen, in list and slots. By the peaks of settling 350,000
+/// particles in space: 460 a particle with the method hybrid, where all are seen, of which the candidates are 190.
 const PARTICLE_BYTES: f64 = 60.0;
 const SEEN_BYTES: f64 = 200.0;
 
-/// Bytes of a particle at the end, when all are measured and brought into columns: what these hold, and what the allocator
-/// keeps of earlier arrays below 32 MiB, which as many particles as in the last line fill. Peaks of 100,000 to 2,000,000
-/// particles that never moved took, beside writing, 286 … 215 a particle in the plane, 270 … 450 in space; 45,000,000 took 180.
+/// Bytes of a particle at the end, when all are measured and brought into columns: what these hold, and what the
+/// allocator keeps of earlier arrays below 32 MiB, which as many particles as in the last line fill. Peaks of 100,000
+/// to 2,000,000 particles that never moved took, beside writing, 286 … 215 a particle in the plane, 270 … 450 in
+/// space; 45,000,000 took 180.
 const COLUMN_BYTES: [f64; 2] = [140.0, 180.0];
 const HELD_BYTES: [f64; 2] = [120.0, 190.0];
 const MOST_HELD: f64 = 1.4e6;
 
-/// Core-seconds of a plain sum over the pairs of one particle: for each pair, and beside them, the list's upkeep and the
-/// motion among it. By 40 … 4,500 evaluations of the method hybrid with 13 … 113 neighbours in the plane (0.19 … 0.72 µs)
-/// and 33 … 905 in space (0.47 … 5.7 µs).
+/// Core-seconds of a plain sum over the pairs of one particle: for each pair, and beside them, the list's upkeep and
+/// the motion among it. By 40 … 4,500 evaluations of the method hybrid with 13 … 113 neighbours in the plane (0.19 …
+/// 0.72 µs) and 33 … 905 in space (0.47 … 5.7 µs).
 const PAIR_SECONDS: [f64; 2] = [5e-9, 7e-9];
 const BESIDE_SECONDS: [f64; 2] = [2e-7, 4e-7];
 
-/// Core-seconds of a particle at the end, frozen ones included: 8 … 13 µs, measuring, sorting by bodies, writing and reading
-/// again.
+/// Core-seconds of a particle that is seen, at rest too, until it is in its slot: where a ball moves 9,000 of 300,000, most
+/// of an evaluation is for the others.
+const SEEN_SECONDS: f64 = 6e-8;
+
+/// Core-seconds of a particle at the end, frozen ones included: 8 … 13 µs, measuring, sorting by bodies, writing and
+/// reading again.
 const END_SECONDS: f64 = 1.2e-5;
 
-/// Bytes of a patch of a surface that confines while patches are put in order, and later; core-seconds until it is cut.
-const PATCH_BYTES: f64 = 1000.0;
-const KEPT_PATCH_BYTES: f64 = 480.0;
+/// Bytes of a patch of a surface that confines while patches are put in order, and later; core-seconds until it is
+/// cut. By balls of 1,700 … 2,200 ∆s² and boxes of 350 and 400: 1.5 kB with one confined side, 2.1 kB with two.
+const PATCH_BYTES: f64 = 1300.0;
+const KEPT_PATCH_BYTES: f64 = 500.0;
 const CUTTING_SECONDS: f64 = 1.8e-5;
 
-/// Core-seconds of what confines, for all particles before a ∆s^(D−1) of surface: by the number of patches in a cube
-/// as wide as the support.
+/// Core-seconds of a patch that confines all particles within its reach, for each ∆s^D of a cube as wide as the
+/// support: 33 ns for a ball of radius 3 ∆s, 8 ns for a box 4 ∆s thick, whose fluid is one particle deep.
 const CONFINING_SECONDS: f64 = 1.5e-8;
 
 impl<const D: usize> Problem<D> {
@@ -123,18 +130,24 @@ impl<const D: usize> Problem<D> {
             (area * 2.0 * moves / per_site).min(particles)
         };
         let around = area * 4.0 * self.reach() / per_site;
-        let seen = (moving + around).min(particles) + frozen;
+        // Across periodic sides there are images in place of frozen particles.
+        let size = self.domain.bounds.size();
+        let larger: f64 = (0..D)
+            .filter(|&k| self.domain.periodic[k])
+            .map(|k| 1.0 + 2.0 * self.reach() / size[k])
+            .product();
+        let images = particles * (larger - 1.0);
+        let seen = (moving + around).min(particles) + frozen + images;
         let all = particles + frozen;
         // Blocks of eight list every candidate within the reach of any of the eight: about twice the neighbours.
         let listed = |reach: f64| 4.0 * 2.2 / 8.0 * unit_ball * reach.powi(D as i32) / per_site;
         let on_surface = area / self.spacing.powi(D as i32 - 1);
-        let patches = on_surface * patches_over_spacing(D);
         let sides = work.confined_sides;
-        let confining = if sides > 0.0 {
-            patches * (PATCH_BYTES + (sides - 1.0) * KEPT_PATCH_BYTES)
-        } else {
-            0.0
-        };
+        let (mut patches, mut confining) = (0.0, 0.0);
+        if sides > 0.0 {
+            patches = on_surface * patches_over_spacing(D) + self.sharp() * PATCHES_ALONG_EDGE;
+            confining = patches * (PATCH_BYTES + (sides - 1.0) * KEPT_PATCH_BYTES);
+        }
         let settling = moving * (work.bytes[D - 2] + work.lists * listed(self.reach()))
             + work.lists * seen * SEEN_BYTES
             + confining;
@@ -143,8 +156,13 @@ impl<const D: usize> Problem<D> {
             all * (SEEN_BYTES - PARTICLE_BYTES) + judged * particles.min(slabs::MOST as f64);
         let kept = all * COLUMN_BYTES[D - 2] + all.min(MOST_HELD) * HELD_BYTES[D - 2];
         let peak = (settling.max(measuring) + all * PARTICLE_BYTES).max(kept);
-        let sum = moving * (BESIDE_SECONDS[D - 2] + neighbors * PAIR_SECONDS[D - 2]);
-        let in_support = (self.support() / self.spacing).powi(D as i32) * patches_over_spacing(D);
+        let sum = moving * (BESIDE_SECONDS[D - 2] + neighbors * PAIR_SECONDS[D - 2])
+            + if moving > 0.0 {
+                seen * SEEN_SECONDS
+            } else {
+                0.0
+            };
+        let in_support = (self.support() / self.spacing).powi(D as i32);
         Ok(Estimate {
             particles,
             frozen,
@@ -152,11 +170,25 @@ impl<const D: usize> Problem<D> {
             memory_bytes: LEAST_BYTES + peak,
             kept_bytes: LEAST_BYTES + kept,
             seconds_per_evaluation: work.times_plain * sum
-                + sides * on_surface * in_support * CONFINING_SECONDS,
+                + sides * patches * in_support * CONFINING_SECONDS,
             seconds_beside: all * END_SECONDS
                 + particles * work.placing
                 + on_surface * work.sampling[D - 2]
                 + sides * patches * CUTTING_SECONDS,
         })
+    }
+
+    /// How long the bodies' sharp edges are, in ∆s; 0 in the plane.
+    fn sharp(&self) -> f64 {
+        let edges = (self.bodies.iter()).flat_map(|body| body.surface.features().edges);
+        let length: f64 = edges
+            .map(|edge| {
+                let sides = edge.windows(2);
+                sides
+                    .map(|ends| point::distance(ends[0], ends[1]))
+                    .sum::<f64>()
+            })
+            .sum();
+        length / self.spacing
     }
 }

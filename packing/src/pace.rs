@@ -9,8 +9,8 @@ use crate::problem::Problem;
 use crate::repulsion::Repulsion;
 use crate::seeding::seed;
 
-/// Core-seconds of a pair where the constants of [estimates](crate::estimate) were measured. Between that machine, which
-/// others share, and another at rest lies a factor of 2.5: nothing but a measurement tells.
+/// Core-seconds of a pair where the constants of [estimates](crate::estimate) were measured. Between that machine,
+/// which others share, and another at rest lies a factor of 2.5: nothing but a measurement tells.
 pub const REFERENCE: f64 = 8e-9;
 
 /// Spacings along an edge of the box that is measured; it takes some milliseconds.

@@ -127,10 +127,8 @@ impl<const D: usize> Grid<'_, D> {
                 .iter()
                 .any(|node| point::dot(node.1.normal, nodes[0].1.normal) < TURN);
             if !bends || width == 1 {
-                let mut patch = self.march(&nodes);
+                let patch = self.march(&nodes);
                 if !patch.is_empty() {
-                    // They are many, and each has grown by doubling.
-                    patch.shrink_to_fit();
                     out.push(patch);
                 }
                 return;

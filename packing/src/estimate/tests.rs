@@ -92,6 +92,23 @@ fn more_surface_and_longer_kernels_are_confined_longer() {
 }
 
 #[test]
+fn sharp_edges_are_cut_finer() {
+    let domain = Domain::new([0.0; 3], [20.0; 3]);
+    let cube = Cuboid::new([6.0; 3], [14.0; 3]).expect("a box");
+    let area = 6.0 * 64.0;
+    let radius = (area / 4.0 / std::f64::consts::PI).sqrt();
+    let confined = Work {
+        confined_sides: 1.0,
+        ..PLAIN
+    };
+    let bytes = |problem: &Problem<3>| {
+        of(problem, &confined).memory_bytes - of(problem, &PLAIN).memory_bytes
+    };
+    let cube = Problem::new(domain, 1.0).body("cube", cube);
+    assert!(bytes(&cube) > 1.5 * bytes(&ball(radius)));
+}
+
+#[test]
 fn patches_are_about_as_many_as_reckoned() {
     let body = Ball::new([0.0; 3], 4.0).expect("a ball");
     let domain = Domain::new([-8.0; 3], [8.0; 3]);
@@ -124,4 +141,18 @@ fn who_judges_with_a_longer_kernel_lists_more() {
     let short = of(&problem, &PLAIN).memory_bytes;
     problem.seen_within = 4.0 * problem.support();
     assert!(of(&problem, &PLAIN).memory_bytes > 1.5 * short);
+}
+
+#[test]
+fn images_across_periodic_sides_are_seen() {
+    let problem = ball(5.0);
+    let mut periodic = problem.clone();
+    periodic.domain = periodic.domain.with_periodic([true; 3]);
+    let many = Work {
+        lists: 10.0,
+        ..PLAIN
+    };
+    let (open, closed) = (of(&problem, &many), of(&periodic, &many));
+    assert_eq!(closed.frozen, 0.0);
+    assert!(closed.memory_bytes > 0.8 * open.memory_bytes);
 }
