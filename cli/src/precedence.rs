@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use sphpack_geometry::{Continued, Cylinder, GeometryError, LevelSet, Mesh, Outline, Surface, cut_on_grid};
+use sphpack_geometry::{
+    Continued, Cylinder, GeometryError, LevelSet, Mesh, Outline, Surface, cut_on_grid,
+};
 use sphpack_neighbors::Domain;
 
 use crate::Error;

@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 use sphpack_geometry::Surface;
 use sphpack_kernels::{Kernel, KernelKind, WithKernel};
-use sphpack_neighbors::{Domain, point};
+use sphpack_neighbors::{Bounds, Domain, point};
 
 mod facets;
 #[cfg(test)]
@@ -17,6 +17,14 @@ use facets::{Facet, Patch, facets};
 
 /// Edge of the cells that cut the surface into patches, in ∆s: one patch is one term of the gradient's sum.
 const CELL_OVER_SPACING: [f64; 2] = [1.0 / 12.0, 1.0 / 4.0];
+
+/// Patches on a ∆s^(D−1) of surface: 1.5 for each face of a cell.
+pub(crate) fn patches_over_spacing(dimension: usize) -> f64 {
+    1.5 * CELL_OVER_SPACING[dimension - 2].powi(1 - dimension as i32)
+}
+
+/// Patches along a ∆s of a sharp edge in space, where cells are a quarter as large: by the memory of two boxes.
+pub(crate) const PATCHES_ALONG_EDGE: f64 = 130.0;
 
 /// What the exterior of a domain adds to Γ and ∇Γ of a particle inside, as if it were full of matter of density 1.
 ///
@@ -34,19 +42,35 @@ pub struct Confinement<const D: usize> {
     kernel: KernelKind,
     smoothing_length: f64,
     domain: Domain<D>,
-    patches: Vec<Element<D>>,
+    /// Middles of the patches, and their areas, outward and as long as they are large: the gradient's loop reads these
+    /// alone.
+    centers: Vec<[f64; D]>,
+    areas: Vec<[f64; D]>,
+    /// The facets of every patch, and how far it is moved.
+    seen: Vec<(Range<usize>, [f64; D])>,
     facets: Vec<Facet<D>>,
+    blocks: Vec<Block<D>>,
     /// Edge of a bin, the kernel's support.
     bin: f64,
-    /// For every bin that a patch is near to, the patches in it and in the bins around it.
+    /// For every bin that a patch is near to, the blocks of patches in it and in the bins around it.
     near: HashMap<[i64; D], Vec<Range<usize>>>,
 }
 
-/// A patch, or a periodic image of one.
+/// Some patches of one bin, that are passed by together where all are out of reach: of what is in the bins around a
+/// place two thirds are.
+#[derive(Debug, Clone)]
+struct Block<const D: usize> {
+    bounds: Bounds<D>,
+    patches: Range<usize>,
+}
+
+/// Patches of a block.
+const BLOCK: usize = 32;
+
+/// A patch, or a periodic image of one, while they are put in order.
 #[derive(Debug, Clone)]
 struct Element<const D: usize> {
     center: [f64; D],
-    /// Outward, as long as the patch is large.
     area: [f64; D],
     shift: [f64; D],
     facets: Range<usize>,
@@ -124,33 +148,51 @@ impl<const D: usize> Confinement<D> {
         let key = |p: [f64; D]| p.map(|x| (x / bin).floor() as i64);
         elements.sort_by_key(|element| key(element.center));
         let mut near: HashMap<[i64; D], Vec<Range<usize>>> = HashMap::new();
+        let mut blocks = Vec::new();
         let mut begin = 0;
         for bin in elements.chunk_by(|a, b| key(a.center) == key(b.center)) {
             let middle = key(bin[0].center);
+            let first = blocks.len();
+            for block in bin.chunks(BLOCK) {
+                let mut bounds = Bounds::EMPTY;
+                block.iter().for_each(|patch| bounds.include(patch.center));
+                blocks.push(Block {
+                    bounds,
+                    patches: begin..begin + block.len(),
+                });
+                begin += block.len();
+            }
             for n in 0..3_i64.pow(D as u32) {
                 let around = std::array::from_fn(|k| middle[k] + n / 3_i64.pow(k as u32) % 3 - 1);
-                near.entry(around)
-                    .or_default()
-                    .push(begin..begin + bin.len());
+                near.entry(around).or_default().push(first..blocks.len());
             }
-            begin += bin.len();
         }
         Self {
             kernel,
             smoothing_length,
             domain: *domain,
-            patches: elements,
+            centers: elements.iter().map(|element| element.center).collect(),
+            areas: elements.iter().map(|element| element.area).collect(),
+            seen: (elements.into_iter())
+                .map(|element| (element.facets, element.shift))
+                .collect(),
             facets,
+            blocks,
             bin,
             near,
         }
     }
 
-    /// Patches whose middle may be within the support of a place.
-    fn around(&self, p: [f64; D]) -> impl Iterator<Item = &Element<D>> {
+    /// How many patches there are, periodic images included.
+    pub fn patches(&self) -> usize {
+        self.centers.len()
+    }
+
+    /// Blocks of the patches whose middle may be within the support of a place.
+    fn around(&self, p: [f64; D]) -> impl Iterator<Item = &Block<D>> {
         let key = p.map(|x| (x / self.bin).floor() as i64);
         let bins = self.near.get(&key).map_or(&[][..], Vec::as_slice);
-        bins.iter().flat_map(|bin| &self.patches[bin.clone()])
+        bins.iter().flat_map(|bin| &self.blocks[bin.clone()])
     }
 
     /// Adds ∇I to the vector of every place; `None` for places that are not asked for. Per scene unit. In parallel, the
@@ -216,11 +258,18 @@ impl<const D: usize, F: Fn(usize) -> bool + Sync> WithKernel<D> for Gradients<'_
             .for_each(|(_, (sum, &place))| {
                 let place = self.confinement.domain.wrap(place);
                 let mut gradient = [0.0; D];
-                for patch in self.confinement.around(place) {
-                    let r_squared = point::distance_squared(place, patch.center);
-                    if r_squared < reach {
-                        let (value, _) = kernel.value_and_slope_over_r(r_squared);
-                        gradient = point::add_scaled(gradient, value, patch.area);
+                for block in self.confinement.around(place) {
+                    if block.bounds.distance_squared(place) >= reach {
+                        continue;
+                    }
+                    let patches = block.patches.clone();
+                    let centers = &self.confinement.centers[patches.clone()];
+                    for (&center, &area) in centers.iter().zip(&self.confinement.areas[patches]) {
+                        let r_squared = point::distance_squared(place, center);
+                        if r_squared < reach {
+                            let (value, _) = kernel.value_and_slope_over_r(r_squared);
+                            gradient = point::add_scaled(gradient, value, area);
+                        }
                     }
                 }
                 *sum = point::add(*sum, gradient);
@@ -240,9 +289,10 @@ impl<const D: usize> WithKernel<D> for Gamma<'_, D> {
         let whole = 1.0 / [2.0 * PI, 4.0 * PI][D - 2];
         let reach = kernel.support();
         let mut sum = 0.0;
-        for patch in self.confinement.around(self.place) {
-            for facet in &self.confinement.facets[patch.facets.clone()] {
-                let seen = point::sub(patch.shift, self.place);
+        let patches = (self.confinement.around(self.place)).flat_map(|block| block.patches.clone());
+        for (facets, shift) in patches.map(|patch| &self.confinement.seen[patch]) {
+            for facet in &self.confinement.facets[facets.clone()] {
+                let seen = point::sub(*shift, self.place);
                 let corners = facet.corners.map(|corner| point::add(corner, seen));
                 if corners.iter().all(|&corner| point::norm(corner) > reach) {
                     continue;

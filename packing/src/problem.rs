@@ -7,7 +7,6 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, words};
 
 use crate::lattice::{Filling, Lattice};
-use crate::slabs;
 use crate::state::Damaged;
 
 /// How deep inside the true surface the boundary particles sit, unless a body says otherwise: ∆s/2 (001 eq. 11).
@@ -182,7 +181,7 @@ pub enum PackingError {
 const GIBIBYTE: f64 = 1_073_741_824.0;
 
 /// An amount of memory in words.
-fn size(bytes: f64) -> String {
+pub fn size(bytes: f64) -> String {
     if bytes < GIBIBYTE {
         format!("{:.0} MiB", bytes / 1_048_576.0)
     } else {
@@ -197,21 +196,6 @@ fn little(bytes: f64) -> &'static str {
     } else {
         ""
     }
-}
-
-/// What a packing will need.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
-    /// Particles in the box.
-    pub particles: f64,
-    /// Frozen particles around it.
-    pub frozen: f64,
-    /// Neighbours within the support of one particle.
-    pub neighbors: f64,
-    /// Peak memory of the packing, bytes, to about a third.
-    pub memory_bytes: f64,
-    /// Core-seconds of one evaluation of density and force of what moves, to a factor of about two.
-    pub seconds_per_evaluation: f64,
 }
 
 impl<const D: usize> Problem<D> {
@@ -398,55 +382,12 @@ impl<const D: usize> Problem<D> {
         }
         Ok(())
     }
-
-    /// What the packing will need, from volumes alone, where particles within `moves` (scene units) of a surface settle
-    /// and the others stay where they are; allocates nothing.
-    ///
-    /// # Errors
-    /// Those of [`Problem::check`].
-    pub fn estimate(&self, moves: f64) -> Result<Estimate, PackingError> {
-        self.check()?;
-        let filling = self.filling();
-        let particles = filling.count() as f64;
-        let frozen = filling.continued_count(&self.domain, self.frozen_depth());
-        let unit_ball = [std::f64::consts::PI, 4.0 / 3.0 * std::f64::consts::PI][D - 2];
-        let per_site = filling.volume_per_site();
-        let neighbors = unit_ball * self.support().powi(D as i32) / per_site;
-        let area: f64 = self.bodies.iter().map(|body| body.surface.measure()).sum();
-        let moving = if self.bodies.is_empty() {
-            0.0
-        } else {
-            (area * 2.0 * moves / per_site).min(particles)
-        };
-        let around = area * 4.0 * self.reach() / per_site;
-        let seen = (moving + around).min(particles) + frozen;
-        // Blocks of eight list every candidate within the reach of any of the eight: about twice the neighbours.
-        let candidates = 2.2 * unit_ball * self.reach().powi(D as i32) / per_site;
-        let listed = 4.0 * candidates / 8.0;
-        let settling = moving * (HISTORY_BYTES + listed) + seen * SEEN_BYTES;
-        let measuring = listed * (particles + frozen).min(slabs::MOST as f64);
-        let kept = (particles + frozen) * PARTICLE_BYTES;
-        Ok(Estimate {
-            particles,
-            frozen,
-            neighbors,
-            memory_bytes: kept + settling.max(measuring + particles * MEASURED_BYTES) + 3e7,
-            seconds_per_evaluation: moving * neighbors / 3.5e8,
-        })
-    }
 }
 
 /// A surface larger than so many times the sides of the box around the body and its volume over ∆s is folded more finely
 /// than particles can follow. What samples it takes time and memory by its size: a zigzag of 10,000 teeth in the room of 150
 /// particles took minutes and gigabytes.
 const FOLDED: f64 = 4.0;
-
-/// Bytes of a particle as it is kept; of one that is seen, in list and slots; of one that moves, in the minimiser's
-/// history; of one when all are measured and written.
-const PARTICLE_BYTES: f64 = 60.0;
-const SEEN_BYTES: f64 = 160.0;
-const HISTORY_BYTES: f64 = 500.0;
-const MEASURED_BYTES: f64 = 150.0;
 
 /// Skin of the neighbour lists in units of ∆s: how far two particles may approach before a list must be built anew.
 pub(crate) const SKIN_OVER_SPACING: f64 = 0.3;

@@ -13,7 +13,7 @@ use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::seed;
 use crate::{
     Hybrid, Kind, Lattice, Observer, Packed, PackingError, Particles, Problem, Progress, Silent,
-    StopReason,
+    StopReason, Work,
 };
 
 /// A small lattice whose particles are shaken by up to `shake` ∆s; every kind occurs.
@@ -305,7 +305,7 @@ fn senseless_problems_are_refused() {
         assert!(is_expected(&error), "{error}");
         assert_eq!(
             problem
-                .estimate(f64::INFINITY)
+                .estimate(f64::INFINITY, &Work::PLAIN)
                 .expect_err("refused")
                 .to_string(),
             error.to_string()

@@ -1,5 +1,5 @@
-//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | kills | faults | reliability | reproduce-paper |
-//! balanced | compare | corpora | lattices | speed | bodies | round-trip`.
+//! The project's own tasks: `cargo xtask ci | tidy | draw | fuzz | kills | faults | estimates | reliability |
+//! reproduce-paper | balanced | compare | corpora | lattices | speed | bodies | round-trip`.
 
 mod accelerations;
 mod agitators;
@@ -56,7 +56,10 @@ cargo xtask TASK
   faults [--runs N] [--seed N] [--only FAULT] [--program FILE] [--write]
                               the command where folders, disks, memory, threads, inputs fail it (500 runs): no panic, outputs
                               whole or as they were, nothing left behind; --write also writes docs/reliability.md
-  reliability                 the long forms of random scenes, kills, faults and scene files; writes docs/reliability.md
+  estimates [--quick] [--program FILE] [--write]
+                              what a dry run says of memory and time, beside what packings of every method take;
+                              --quick packs the small ones, --write also writes docs/reliability.md
+  reliability                 the long forms of random scenes, kills, faults, scene files, estimates; writes docs/reliability.md
                               (some hours)
   reproduce-paper [--quick] [--only SCENE] [--data DIR] [--write]
                               the figures of paper 001, published beside ours;
@@ -109,6 +112,10 @@ fn main() -> ExitCode {
         Some("faults") => {
             let settings = scene_fuzz::faults::Settings::parse(rest);
             settings.and_then(|s| scene_fuzz::faults::run(&s))
+        }
+        Some("estimates") => {
+            let settings = scene_fuzz::estimates::Settings::parse(rest);
+            settings.and_then(|s| scene_fuzz::estimates::run(&s))
         }
         Some("reliability") => reliability::run(),
         Some("reproduce-paper") => {

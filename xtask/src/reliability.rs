@@ -1,6 +1,6 @@
 //! All that docs/reliability.md says, measured anew: the long forms of what every change must pass in short.
 
-use crate::scene_fuzz::{self, faults, files, kills};
+use crate::scene_fuzz::{self, estimates, faults, files, kills};
 
 /// Random scenes, and the seed of the page.
 const SCENES: usize = 5000;
@@ -30,11 +30,16 @@ pub(crate) fn run() -> Result<(), String> {
         write: true,
         ..files::Settings::new(SCENE_FILES)
     };
+    let estimates = estimates::Settings {
+        write: true,
+        ..estimates::Settings::default()
+    };
     let failed: Vec<String> = [
         scene_fuzz::run(&scenes),
         kills::run(&kills),
         faults::run(&faults),
         files::run(&files),
+        estimates::run(&estimates),
     ]
     .into_iter()
     .filter_map(Result::err)

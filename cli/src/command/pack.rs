@@ -5,7 +5,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use sphpack_packing::{Kind, StopReason};
+use sphpack_packing::problem::size;
+use sphpack_packing::{Kind, StopReason, pace};
 
 use super::arguments::PackArguments;
 use super::keeping::Keeping;
@@ -19,21 +20,12 @@ use crate::picture::{PictureFormat, Subject, draw};
 use crate::plan::{available_bytes, dimension, plan};
 use crate::report::peak_memory_bytes;
 use crate::run::{Options, Outcome, run as pack};
-use crate::scene::{Finish, METHODS, Method, PackingSpec, Scene, advice};
+use crate::scene::{METHODS, Method, Scene, advice};
 use crate::surroundings::surrounded;
 use crate::table::Table;
 
 /// The margin around a body without a scene, in ∆s.
 const MARGIN_OVER_SPACING: f64 = 8.0;
-
-/// Evaluations that the time estimate of a dry run reckons with.
-fn typical_evaluations(packing: &PackingSpec) -> f64 {
-    match (packing.method, packing.finish) {
-        (Method::Balanced, Finish::Even) => 80.0,
-        (Method::Balanced, Finish::Consistent) => 500.0,
-        _ => 1500.0,
-    }
-}
 
 pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let begin = Instant::now();
@@ -171,21 +163,23 @@ fn dry_run(scene: &Scene, is_quiet: bool) -> Result<u8, Error> {
         }
     }
     let estimate = plan.estimate;
-    let gibibytes = |bytes: f64| bytes / 1_073_741_824.0;
-    let evaluations = typical_evaluations(&scene.packing);
-    let seconds =
-        estimate.seconds_per_evaluation * evaluations / rayon::current_num_threads() as f64;
+    let evaluations = scene.packing.typical_evaluations();
+    let slowness = pace::slowness();
+    let each = slowness * estimate.seconds_per_evaluation;
+    let work = slowness * estimate.seconds_beside + evaluations * each;
+    let seconds = plan.building_seconds + work / rayon::current_num_threads() as f64;
     let read = summary::read(&plan.read);
     say(&format!(
-        "{read}  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {:.2} GiB of {:.1} GiB that are free\n  time       about {} for {evaluations} evaluations of what moves on {} threads, to a factor of two\nnothing was written (--dry-run)\n",
+        "{read}  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {} of {} that are free\n  time       about {} on {} threads, {evaluations} evaluations of what moves among it, each about {}; to a factor of two\nnothing was written (--dry-run)\n",
         crate::picture::grouped(estimate.particles as usize),
         plan.dimension,
         crate::picture::grouped(estimate.frozen as usize),
         estimate.neighbors,
-        gibibytes(estimate.memory_bytes),
-        gibibytes(plan.allowed_bytes),
+        size(estimate.memory_bytes),
+        size(plan.allowed_bytes),
         duration(seconds),
         rayon::current_num_threads(),
+        duration(each / rayon::current_num_threads() as f64),
     ))?;
     Ok(DONE)
 }

@@ -157,7 +157,9 @@ impl Observer for Watcher {
 
 /// A time for people.
 pub(super) fn duration(seconds: f64) -> String {
-    if seconds < 0.9995 {
+    if seconds < 0.9995e-3 {
+        format!("{:.0} µs", 1e6 * seconds)
+    } else if seconds < 0.9995 {
         format!("{:.0} ms", 1000.0 * seconds)
     } else if seconds < 99.95 {
         format!("{seconds:.1} s")
@@ -174,7 +176,10 @@ mod tests {
 
     #[test]
     fn times_read_well() {
-        let read = [0.0414, 1.04, 12.0, 240.0, 9000.0].map(duration);
-        assert_eq!(read, ["41 ms", "1.0 s", "12.0 s", "4 min", "2.5 h"]);
+        let read = [3.2e-4, 0.0414, 1.04, 12.0, 240.0, 9000.0].map(duration);
+        assert_eq!(
+            read,
+            ["320 µs", "41 ms", "1.0 s", "12.0 s", "4 min", "2.5 h"]
+        );
     }
 }

@@ -188,8 +188,8 @@ fn thin_slices_are_not_lost_on_a_grid() {
             SPACING,
         );
         let chord = minor - height;
-        let segment = minor * minor * (chord / minor).acos()
-            - chord * (minor * minor - chord * chord).sqrt();
+        let segment =
+            minor * minor * (chord / minor).acos() - chord * (minor * minor - chord * chord).sqrt();
         let exact = TAU * major * (0.25 * TAU * minor * minor + segment);
         let Ok(Left::Part(left)) = left else {
             panic!("{height}: not cut");

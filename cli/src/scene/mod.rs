@@ -315,6 +315,16 @@ impl PackingSpec {
         self.h_over_spacing.unwrap_or(self.method.kernel().1)
     }
 
+    /// Evaluations until particles are at rest, or until no more are allowed, in the middle of what scenes take.
+    pub fn typical_evaluations(&self) -> f64 {
+        let work = self.method.info().work;
+        match (self.method, self.finish) {
+            // What a body does to its surroundings falls off so slowly that some hundred more are needed for 10⁻⁵.
+            (Method::Balanced, Finish::Consistent) => (500_f64).min(self.max_iterations as f64),
+            _ => work.evaluations_within(self.max_iterations),
+        }
+    }
+
     /// How methods that minimise bring particles to rest.
     pub fn settling(&self) -> Settling {
         let defaults = Settling::default();

@@ -373,3 +373,19 @@ fn levelling_is_weaker_where_the_kernel_is_short() {
     assert_eq!(at("method = \"complex\""), 1000.0);
     assert_eq!(at("method = \"complex\"\nlevelling = 0.0"), 0.0);
 }
+
+#[test]
+fn limits_of_iterations_limit_what_is_estimated() {
+    let evaluations = |method: &str, more: &str| {
+        let scene = parse(&format!(
+            "spacing = 1.0\n[domain]\nmin = [0.0, 0.0]\nmax = [9.0, 9.0]\n[packing]\nmethod = \"{method}\"\n{more}"
+        ));
+        scene.packing.typical_evaluations()
+    };
+    assert_eq!(evaluations("hybrid", "max_iterations = 7"), 7.0);
+    assert!(evaluations("hybrid", "") > 1000.0);
+    // Of its first pass no limit is taken.
+    assert!(evaluations("coupled", "max_iterations = 7") > 1000.0);
+    let consistent = evaluations("balanced", "finish = \"consistent\"");
+    assert!(consistent > 2.0 * evaluations("balanced", ""));
+}

@@ -9,8 +9,8 @@ use std::time::{Duration, Instant, SystemTime};
 use serde_json::Value;
 
 use super::random::Random;
-use crate::marks;
 use super::{build, generate, trial};
+use crate::marks;
 
 /// What to run.
 #[derive(Debug, Clone)]

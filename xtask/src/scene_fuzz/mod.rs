@@ -2,6 +2,7 @@
 
 mod airfoil;
 mod case;
+pub(crate) mod estimates;
 pub(crate) mod faults;
 pub(crate) mod files;
 mod garble;

@@ -167,7 +167,7 @@ fn peak_bytes(process: &Path) -> u64 {
 }
 
 /// 0 where the system does not tell.
-fn processor_seconds(process: &Path) -> f64 {
+pub(super) fn processor_seconds(process: &Path) -> f64 {
     let text = fs::read_to_string(process.join("stat")).unwrap_or_default();
     // The name, in brackets, may hold anything.
     let fields: Vec<&str> = text

@@ -1,0 +1,158 @@
+use sphpack_geometry::{Ball, Cuboid};
+use sphpack_kernels::KernelKind;
+use sphpack_neighbors::Domain;
+
+use super::*;
+use crate::confinement::Confinement;
+
+const PLAIN: Work = Work::PLAIN;
+
+fn ball(radius: f64) -> Problem<3> {
+    Problem::new(Domain::new([0.0; 3], [20.0; 3]), 1.0)
+        .body("ball", Ball::new([10.0; 3], radius).expect("a ball"))
+}
+
+fn of(problem: &Problem<3>, work: &Work) -> Estimate {
+    problem
+        .estimate(f64::INFINITY, work)
+        .expect("a sound problem")
+}
+
+#[test]
+fn all_that_a_method_does_takes_its_part() {
+    let problem = ball(5.0);
+    let plain = of(&problem, &PLAIN);
+    for (name, work) in [
+        (
+            "sides",
+            Work {
+                confined_sides: 1.0,
+                ..PLAIN
+            },
+        ),
+        (
+            "lists",
+            Work {
+                lists: 20.0,
+                ..PLAIN
+            },
+        ),
+        (
+            "bytes",
+            Work {
+                bytes: [5e3; 2],
+                ..PLAIN
+            },
+        ),
+    ] {
+        let more = of(&problem, &work);
+        assert!(more.memory_bytes > 1.2 * plain.memory_bytes, "{name}");
+    }
+    let slow = Work {
+        times_plain: 3.0,
+        ..PLAIN
+    };
+    let ratio = of(&problem, &slow).seconds_per_evaluation / plain.seconds_per_evaluation;
+    assert!((ratio - 3.0).abs() < 1e-9, "{ratio}");
+    for work in [
+        Work {
+            placing: 1e-4,
+            ..PLAIN
+        },
+        Work {
+            sampling: [1e-3; 2],
+            ..PLAIN
+        },
+    ] {
+        assert!(of(&problem, &work).seconds_beside > 1.5 * plain.seconds_beside);
+    }
+}
+
+#[test]
+fn more_surface_and_longer_kernels_are_confined_longer() {
+    let confined = Work {
+        confined_sides: 2.0,
+        ..PLAIN
+    };
+    let confining = |problem: &Problem<3>| {
+        of(problem, &confined).seconds_per_evaluation - of(problem, &PLAIN).seconds_per_evaluation
+    };
+    let (small, large) = (ball(3.0), ball(6.0));
+    assert!((confining(&large) / confining(&small) - 4.0).abs() < 0.1);
+    let mut long = ball(3.0);
+    long.h_over_spacing *= 2.0;
+    assert!((confining(&long) / confining(&small) - 8.0).abs() < 0.1);
+    // A thousand particles in the box of a body that fills it: the patches are most of the work.
+    let mut full = Problem::new(Domain::new([0.0; 3], [6.0, 14.0, 10.0]), 1.0).body(
+        "box",
+        Cuboid::new([1.0; 3], [5.0, 13.0, 9.0]).expect("a box"),
+    );
+    (full.kernel, full.h_over_spacing) = (KernelKind::WendlandC2, 1.3);
+    assert!(confining(&full) > of(&full, &PLAIN).seconds_per_evaluation);
+}
+
+#[test]
+fn sharp_edges_are_cut_finer() {
+    let domain = Domain::new([0.0; 3], [20.0; 3]);
+    let cube = Cuboid::new([6.0; 3], [14.0; 3]).expect("a box");
+    let area = 6.0 * 64.0;
+    let radius = (area / 4.0 / std::f64::consts::PI).sqrt();
+    let confined = Work {
+        confined_sides: 1.0,
+        ..PLAIN
+    };
+    let bytes = |problem: &Problem<3>| {
+        of(problem, &confined).memory_bytes - of(problem, &PLAIN).memory_bytes
+    };
+    let cube = Problem::new(domain, 1.0).body("cube", cube);
+    assert!(bytes(&cube) > 1.5 * bytes(&ball(radius)));
+}
+
+#[test]
+fn patches_are_about_as_many_as_reckoned() {
+    let body = Ball::new([0.0; 3], 4.0).expect("a ball");
+    let domain = Domain::new([-8.0; 3], [8.0; 3]);
+    let confinement = Confinement::inside(&body, &domain, KernelKind::WendlandC2, 1.3, 1.0);
+    let reckoned = sphpack_geometry::Surface::<3>::measure(&body) * patches_over_spacing(3);
+    let ratio = confinement.patches() as f64 / reckoned;
+    assert!((0.8..1.25).contains(&ratio), "{ratio}");
+    let body = Ball::new([0.0; 2], 4.0).expect("a disc");
+    let domain = Domain::new([-8.0; 2], [8.0; 2]);
+    let confinement = Confinement::inside(&body, &domain, KernelKind::WendlandC2, 1.3, 1.0);
+    let reckoned = sphpack_geometry::Surface::<2>::measure(&body) * patches_over_spacing(2);
+    let ratio = confinement.patches() as f64 / reckoned;
+    assert!((0.7..1.4).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn what_stays_on_its_lattice_costs_little() {
+    let problem = ball(5.0);
+    let part = problem.estimate(2.0, &PLAIN).expect("a sound problem");
+    let all = of(&problem, &PLAIN);
+    assert!(part.seconds_per_evaluation < 0.5 * all.seconds_per_evaluation);
+    assert_eq!(part.particles, all.particles);
+    let none = problem.estimate(0.0, &PLAIN).expect("a sound problem");
+    assert_eq!(none.seconds_per_evaluation, 0.0);
+}
+
+#[test]
+fn who_judges_with_a_longer_kernel_lists_more() {
+    let mut problem = ball(5.0);
+    let short = of(&problem, &PLAIN).memory_bytes;
+    problem.seen_within = 4.0 * problem.support();
+    assert!(of(&problem, &PLAIN).memory_bytes > 1.5 * short);
+}
+
+#[test]
+fn images_across_periodic_sides_are_seen() {
+    let problem = ball(5.0);
+    let mut periodic = problem.clone();
+    periodic.domain = periodic.domain.with_periodic([true; 3]);
+    let many = Work {
+        lists: 10.0,
+        ..PLAIN
+    };
+    let (open, closed) = (of(&problem, &many), of(&periodic, &many));
+    assert_eq!(closed.frozen, 0.0);
+    assert!(closed.memory_bytes > 0.8 * open.memory_bytes);
+}
