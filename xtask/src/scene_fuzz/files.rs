@@ -36,7 +36,7 @@ const BLOCK: usize = 256;
 pub(crate) struct Settings {
     files: usize,
     seed: u64,
-    pub(crate) write: bool,
+    write: bool,
 }
 
 impl Settings {

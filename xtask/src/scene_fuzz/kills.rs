@@ -19,7 +19,7 @@ pub(crate) struct Settings {
     seed: u64,
     /// The command, where it is not to be built.
     program: Option<PathBuf>,
-    pub(crate) write: bool,
+    write: bool,
 }
 
 impl Settings {

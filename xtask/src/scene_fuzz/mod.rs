@@ -43,12 +43,12 @@ const MOST_TRIALS: [usize; 2] = [40, 6];
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
     scenes: usize,
-    pub(crate) seed: u64,
+    seed: u64,
     /// The one scene to run, and to show.
     only: Option<usize>,
     /// The command, where it is not to be built.
     program: Option<PathBuf>,
-    pub(crate) write: bool,
+    write: bool,
 }
 
 impl Settings {

@@ -33,7 +33,7 @@ const MOST_SECONDS: f64 = 200.0;
 /// What to run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Settings {
-    pub(crate) write: bool,
+    write: bool,
     quick: bool,
     /// The command, where it is not to be built.
     program: Option<PathBuf>,

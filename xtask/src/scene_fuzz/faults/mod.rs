@@ -26,7 +26,7 @@ pub(crate) struct Settings {
     only: Option<String>,
     /// The command, where it is not to be built.
     program: Option<PathBuf>,
-    pub(crate) write: bool,
+    write: bool,
 }
 
 impl Settings {
