@@ -78,7 +78,8 @@ fn is_like_images<const D: usize>(
                 let q = point::add_scaled(hit.point, way, hit.normal);
                 is_held(body, domain, q)
             };
-            let far = 1e-7 * domain.bounds.diagonal();
+            // Corners that lie on a side but for single precision are moved onto it, and what leads to them with them.
+            let far = 2.0 * FLUSH * domain.bounds.diagonal();
             let is_off_sides = (0..D).all(|k| {
                 hit.point[k] - domain.bounds.min[k] > far
                     && domain.bounds.max[k] - hit.point[k] > far
