@@ -18,7 +18,7 @@ const LOST: f64 = 1e-3;
 ///
 /// ```
 /// use std::sync::Arc;
-/// use sphpack_geometry::{Ball, Cuboid, cut_on_grid};
+/// use sphpack_geometry::{Ball, Cuboid, Surface, cut_on_grid};
 /// let ball = Arc::new(Ball::new([0.0; 3], 1.0)?);
 /// // A cap of height 0.04 is above the box.
 /// let board = Arc::new(Cuboid::new([-2.0, -2.0, 0.0], [2.0, 2.0, 0.96])?);

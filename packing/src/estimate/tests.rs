@@ -1,3 +1,5 @@
+//! Estimates follow what is packed, and how.
+
 use sphpack_geometry::{Ball, Cuboid};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;

@@ -90,8 +90,8 @@ const PATIENCE: usize = 200;
 const STANDSTILL: f64 = 1e-5;
 const SMALL_FORCE: f64 = 1e-3;
 
-/// Nor where the largest force has not halved within so many evaluations (times the minimiser's pace): what comes to rest
-/// at all does within some hundred.
+/// Nor where the largest force has not halved within so many evaluations: what comes to rest at all does within some
+/// hundred by L-BFGS, and within five times as many by the slowest minimiser.
 const LONG_PATIENCE: usize = 1500;
 
 impl Settling {
@@ -229,7 +229,7 @@ impl Settling {
             }
             if residual < 0.5 * halved {
                 (halved, halved_at) = (residual, evaluations);
-            } else if evaluations > halved_at + LONG_PATIENCE * self.minimiser.pace() {
+            } else if evaluations > halved_at + LONG_PATIENCE {
                 break StopReason::Stagnated;
             }
             if residual < lowest {

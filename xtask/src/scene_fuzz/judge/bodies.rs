@@ -149,7 +149,9 @@ fn volumes(scene: &Scene<'_>, faults: &mut Faults) {
             })
             .sum();
         let is = truth.volume(number);
-        if (sum - is).abs() > (0.01 * is).max(0.5 * particle) {
+        let allowed = (0.01 * is).max(0.5 * particle);
+        let omitted = omitted(scene, &body.name, 0.5 * particle);
+        if sum > is + allowed || sum < is - allowed - omitted {
             faults.add(
                 "volume of a body",
                 format!(
@@ -161,6 +163,20 @@ fn volumes(scene: &Scene<'_>, faults: &mut Faults) {
             );
         }
     }
+}
+
+/// The volume of a body's parts that get no particles, as warnings name them, each of less than `most`.
+fn omitted(scene: &Scene<'_>, name: &str, most: f64) -> f64 {
+    let warnings = scene.report.get("warnings").and_then(|all| all.as_array());
+    let volume = |words: &str| -> Option<f64> {
+        let (part, rest) = words.split_once(" gets no particles: its volume ")?;
+        let is_own = part.starts_with(&format!("a part of body \"{name}\" "));
+        let volume: f64 = rest.split(' ').next()?.parse().ok()?;
+        (is_own && volume < most).then_some(volume)
+    };
+    (warnings.into_iter().flatten())
+        .filter_map(|warning| volume(warning.as_str()?))
+        .sum()
 }
 
 /// Whether a body's volume is not its own alone: it lies in a void or with one in it, or particles on its true surface
