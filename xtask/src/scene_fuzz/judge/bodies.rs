@@ -213,7 +213,11 @@ fn shares(scene: &Scene<'_>, number: usize) -> bool {
                 .any(|row| truth.distance(k, row.at).abs() < 1.5 * spacing)
         };
         match other.role {
-            Role::Void => touches() || other.distance(middle(own)) < 0.0,
+            // A ring has its middle outside.
+            Role::Void => {
+                let is_around = scene.axes().all(|k| a[0][k] < b[0][k] && b[1][k] < a[1][k]);
+                touches() || is_around || other.distance(middle(own)) < 0.0
+            }
             _ => (own.inset < 0.5 || other.inset < 0.5) && touches(),
         }
     })
