@@ -282,6 +282,12 @@ box or meets its images: {walls} with open sides, {cells} with periodic ones, at
 outside the box, none of the body outside the body or its images, none of the fluid more than 0.12 ∆s inside, the mass what counting
 cells of the box gives, and no two particles are nearer than half a spacing, images counted.
 
+What is not even is coarse, and almost all of it lies where sides are a half-odd number of ∆s apart: what a wall is to hold beside a
+row for every ∆s of its sides does not make a row of its own. Long sides make room, their particles slide; short ones between corners, which
+hold a particle each, cannot (window, squares). Two cures were tried and do not pay: as many particles on the sides as make
+whole rows is worse, for the sides' rows stay ∆s/2 deep while evenness wants them half a row's width deep; corners that slide
+take mass out of the corners, and are half a cure where the body turns inward.
+
 | body | scenes | right | even | said | refused | wrong | worst mass, in allowances | worst L∞ | closest pair |
 |---|---|---|---|---|---|---|---|---|---|
 ",
