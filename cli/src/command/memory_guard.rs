@@ -3,6 +3,8 @@
 use std::io::Write;
 use std::time::Duration;
 
+use sphpack_packing::problem::size;
+
 use super::{at_once, interrupt};
 use crate::error::BAD_INPUT;
 use crate::report::kibibytes;
@@ -14,24 +16,23 @@ const EVERY: Duration = Duration::from_millis(50);
 /// estimate before the work knows particles; what bodies take while they are read, moved and cut is known when it happens.
 /// Without a thread to spare, or a system that says what is taken, nobody looks.
 pub(super) fn watch(allowed: f64) {
-    let name = || std::thread::Builder::new().name("memory".to_owned());
     let look = move || {
         while !interrupt::is_at_work() {
             let Some(taken) = kibibytes("/proc/self/status", "VmRSS:") else {
                 return;
             };
             if taken as f64 > allowed {
-                let gibibytes = |bytes: f64| bytes / 1_073_741_824.0;
                 let _ = writeln!(
                     std::io::stderr(),
-                    "sphpack: stopped: {:.2} GiB of memory are in use, more than the {:.2} GiB that were free; use a larger spacing, a smaller domain or plainer bodies, or raise the limit",
-                    gibibytes(taken as f64),
-                    gibibytes(allowed)
+                    "sphpack: stopped: {} of memory are in use, more than the {} that were free; use a larger spacing, a smaller domain or plainer bodies, or raise the limit",
+                    size(taken as f64),
+                    size(allowed)
                 );
                 at_once::end(BAD_INPUT);
             }
             std::thread::sleep(EVERY);
         }
     };
-    drop(name().spawn(look));
+    let thread = std::thread::Builder::new().name("memory".to_owned());
+    drop(thread.spawn(look));
 }

@@ -42,6 +42,8 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let mut watcher = Watcher::new(arguments.quiet, keeping);
     let outcome = pack(&scene, &Options::default(), &mut watcher);
     let keeping = watcher.end();
+    // Methods that move nothing have something to write too.
+    interrupt::has_begun();
     let mut outcome = outcome?;
     if !arguments.quiet {
         for body in &outcome.report.bodies {

@@ -37,10 +37,9 @@ pub fn cut_on_grid(
     lost: f64,
 ) -> Result<Option<Mesh>, GeometryError> {
     let whole = lower.volume();
-    let mut cells = (0..=HALVINGS).map(|n| cell * 0.5_f64.powi(n));
     let mut size = cell;
     let mut missing = 0.0;
-    for next in cells.by_ref() {
+    for next in (0..=HALVINGS).map(|n| cell * 0.5_f64.powi(n)) {
         let set = |body: &Arc<dyn Surface<3>>| LevelSet::of(Arc::clone(body), next);
         let (from, by) = match (set(&lower), set(&higher)) {
             (Ok(from), Ok(by)) => (from, by),
