@@ -21,7 +21,7 @@ impl<const D: usize> Profile<D> for CohesionProfile {
     const SLOPE: f64 = 32.0 / PI;
 
     #[inline(always)]
-    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: N) -> (N, N) {
         // u³(1−u)³ with u = 1 − s, and its integral from 0 to u.
         let u = below(1.0, r, inverse);
         let s = r.constant(1.0) - u;

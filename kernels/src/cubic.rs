@@ -19,7 +19,7 @@ impl<const D: usize> Profile<D> for CubicProfile {
     const SLOPE: f64 = -3.0;
 
     #[inline(always)]
-    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: N) -> (N, N) {
         let a = below(2.0, r, inverse);
         let mut slope = r.constant(0.25) * a * a;
         let mut value = slope * a;

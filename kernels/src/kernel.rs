@@ -79,8 +79,8 @@ pub trait Profile<const D: usize>: Copy + Debug + Default + Send + Sync {
     const SLOPE: f64;
 
     /// w(q) and w'(q)/[`Profile::SLOPE`] for q = r · `inverse` with `q ≥ STARTS[PIECE]`; zero for
-    /// q ≥ [`Profile::SUPPORT`]. `inverse` is 1/h.
-    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N);
+    /// q ≥ [`Profile::SUPPORT`]. `inverse` is 1/h, which may differ from number to number.
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: N) -> (N, N);
 }
 
 /// How many pieces a profile may have.
@@ -161,7 +161,6 @@ pub(crate) const fn per_dimension(dimension: usize, table: [f64; 3]) -> f64 {
 
 /// max(join − r/h, 0), the piece of a spline below its join.
 #[inline(always)]
-pub(crate) fn below<N: Number>(join: f64, r: N, inverse: f64) -> N {
-    r.multiply_add(r.constant(-inverse), r.constant(join))
-        .positive()
+pub(crate) fn below<N: Number>(join: f64, r: N, inverse: N) -> N {
+    r.multiply_add(-inverse, r.constant(join)).positive()
 }

@@ -1,10 +1,12 @@
 //! What kernels compute with: one number, or several side by side.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Mul, Neg, Sub};
 
 /// A number, or a fixed count of numbers worked on at the same time. Implemented for `f64`; a vector type of several
 /// lanes needs a newtype of the caller's.
-pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
     /// The constant `c`, in the shape of `self`, whose value does not matter.
     fn constant(self, c: f64) -> Self;
 

@@ -22,7 +22,7 @@ impl<const D: usize> Profile<D> for QuinticProfile {
 
     // Value and slope share the fourth powers with their factors: w = Σ c_k (k−q)⁴ · (k−q), w' = −5 Σ c_k (k−q)⁴.
     #[inline(always)]
-    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: N) -> (N, N) {
         let a = below(3.0, r, inverse);
         let a2 = a * a;
         let mut slope = a2 * a2;

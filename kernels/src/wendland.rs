@@ -30,8 +30,8 @@ const ONE_PIECE: [f64; PIECES] = [0.0; PIECES];
 
 /// 1 − s, s and q for s = q/2, the first cut at zero.
 #[inline(always)]
-fn inward<N: Number>(r: N, inverse: f64) -> (N, N, N) {
-    let q = r * r.constant(inverse);
+fn inward<N: Number>(r: N, inverse: N) -> (N, N, N) {
+    let q = r * inverse;
     let s = q * q.constant(0.5);
     ((q.constant(1.0) - s).positive(), s, q)
 }
@@ -53,7 +53,7 @@ impl<const D: usize> Profile<D> for WendlandC2Profile {
     const SLOPE: f64 = per_dimension(D, [-3.0, -5.0, -5.0]);
 
     #[inline(always)]
-    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: N) -> (N, N) {
         let (t, s, q) = inward(r, inverse);
         let t2 = t * t;
         if D == 1 {
@@ -71,7 +71,7 @@ impl<const D: usize> Profile<D> for WendlandC4Profile {
     const SLOPE: f64 = per_dimension(D, [-3.5, -14.0 / 3.0, -14.0 / 3.0]);
 
     #[inline(always)]
-    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: N) -> (N, N) {
         let (t, s, q) = inward(r, inverse);
         let t2 = t * t;
         let t4 = t2 * t2;
@@ -96,7 +96,7 @@ impl<const D: usize> Profile<D> for WendlandC6Profile {
     const SLOPE: f64 = per_dimension(D, [-4.5, -5.5, -5.5]);
 
     #[inline(always)]
-    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: f64) -> (N, N) {
+    fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: N) -> (N, N) {
         let (t, s, q) = inward(r, inverse);
         let t2 = t * t;
         let t4 = t2 * t2;

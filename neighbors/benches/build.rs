@@ -19,11 +19,11 @@ fn all(c: &mut Criterion) {
     c.bench_function("cell list, support 3", |b| {
         b.iter(|| {
             list.invalidate();
-            list.update(&points, |_| true)
+            list.update(&points)
         });
     });
     c.bench_function("cell list, nothing moved", |b| {
-        b.iter(|| list.update(&points, |_| true));
+        b.iter(|| list.update(&points));
     });
     c.bench_function("kd-tree", |b| b.iter(|| KdTree::new(&points)));
 }

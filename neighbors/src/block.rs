@@ -1,5 +1,12 @@
 //! Blocks of targets and the runs of their candidates.
 
+use rayon::prelude::*;
+
+use crate::LANES;
+
+/// Blocks that one task handles.
+pub(crate) const BLOCKS_PER_CHUNK: usize = 16;
+
 /// Shells that candidates are sorted into, by their distance from the block.
 pub const SHELLS: usize = 4;
 
@@ -12,32 +19,32 @@ const RUNS: usize = SHELLS + 1;
 /// The run of candidates that only half of the block is near to.
 const SPLIT: usize = SHELLS;
 
-/// Up to [`LANES`](crate::LANES) targets and the slots of everything that may be within their support.
+/// Up to [`LANES`] targets and the slots of everything that may be within their support.
 ///
 /// Most candidates may be near to any target of the block. Of those of the last shell, many are near to its first four
 /// targets only, or to the others only: these are *split*, and make pairs of one for the first half and one for the
-/// second. All is padded to groups of [`GROUP`] vectors by the slot of nobody.
+/// second. All is padded to groups of [`GROUP`] vectors by the padding slot, which has no weight.
 #[derive(Debug, Clone, Copy)]
 pub struct Block<'a> {
     /// The targets are the slots `first_slot .. first_slot + len`.
     pub first_slot: usize,
-    /// How many targets there are, 1 … [`LANES`](crate::LANES).
+    /// How many targets there are, 1 … [`LANES`].
     pub len: usize,
-    /// Slots of the candidates, each once, the targets themselves among them; and the slot of nobody, which weighs
-    /// nothing and is out of reach, here and there.
+    /// Slots of the candidates, each once, the targets themselves among them; and here and there the padding slot, which
+    /// has no weight and is out of reach of all.
     pub candidates: &'a [u32],
     ends: &'a [u32; 2 * RUNS],
-    nobody: u32,
+    padding: u32,
 }
 
 impl<'a> Block<'a> {
-    /// The slots of all candidates, nobody's left out.
+    /// The slots of all candidates, without the padding slot.
     #[inline]
-    pub fn sources(&self) -> impl Iterator<Item = usize> + 'a {
-        let nobody = self.nobody;
+    pub fn sources(&self) -> impl Iterator<Item = usize> + use<'a> {
+        let padding = self.padding;
         self.candidates
             .iter()
-            .filter(move |&&slot| slot != nobody)
+            .filter(move |&&slot| slot != padding)
             .map(|&slot| slot as usize)
     }
 
@@ -62,6 +69,59 @@ impl<'a> Block<'a> {
     }
 }
 
+/// All blocks of a list. They know slots and no positions, so that what runs over them is compiled once for the plane
+/// and space.
+#[derive(Debug, Clone, Default)]
+pub struct Blocks {
+    targets: usize,
+    chunks: Vec<Chunk>,
+}
+
+impl Blocks {
+    /// Number of targets: their slots are the first.
+    pub fn targets(&self) -> usize {
+        self.targets
+    }
+
+    /// Empty chunks for so many targets.
+    pub(crate) fn chunks_for(&mut self, targets: usize) -> &mut [Chunk] {
+        self.targets = targets;
+        let blocks = targets.div_ceil(LANES);
+        self.chunks
+            .resize_with(blocks.div_ceil(BLOCKS_PER_CHUNK), Chunk::default);
+        &mut self.chunks
+    }
+
+    /// Runs `f` over all blocks in parallel. `out` has one entry per target slot; a block gets those of its targets.
+    /// No allocation.
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are targets.
+    pub fn for_each<R: Send>(&self, out: &mut [R], f: impl Fn(Block<'_>, &mut [R]) + Sync) {
+        assert_eq!(out.len(), self.targets, "one output per target");
+        out.par_chunks_mut(BLOCKS_PER_CHUNK * LANES)
+            .zip(&self.chunks)
+            .enumerate()
+            .for_each(|(number, (out, chunk))| {
+                let first = number * BLOCKS_PER_CHUNK * LANES;
+                for (block, out) in out.chunks_mut(LANES).enumerate() {
+                    f(chunk.block(block, first + block * LANES, out.len()), out);
+                }
+            });
+    }
+
+    /// The block of a target slot.
+    pub(crate) fn of_slot(&self, slot: usize) -> Block<'_> {
+        let block = slot / LANES;
+        self.chunks[block / BLOCKS_PER_CHUNK].block(block % BLOCKS_PER_CHUNK, slot, 1)
+    }
+
+    /// Candidates over all blocks and lanes: what a pair loop evaluates, pairs beyond the support included.
+    pub fn lane_pairs(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.lanes).sum()
+    }
+}
+
 /// The candidates of consecutive blocks.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Chunk {
@@ -72,7 +132,7 @@ pub(crate) struct Chunk {
     candidates: Vec<u32>,
     /// Slots × lanes, padding included.
     lanes: usize,
-    nobody: u32,
+    padding: u32,
 }
 
 impl Chunk {
@@ -93,18 +153,13 @@ impl Chunk {
             candidates: &self.candidates
                 [self.start[place] as usize..self.start[place + 1] as usize],
             ends: &self.ends[place],
-            nobody: self.nobody,
+            padding: self.padding,
         }
     }
 
-    /// Candidates times lanes.
-    pub(crate) fn lanes(&self) -> usize {
-        self.lanes
-    }
-
     /// Takes the candidates of the next block out of `found`.
-    pub(crate) fn add_block(&mut self, found: &mut Found, nobody: u32) {
-        self.nobody = nobody;
+    pub(crate) fn add_block(&mut self, found: &mut Found, padding: u32) {
+        self.padding = padding;
         let first = self.candidates.len();
         let mut ends = [0; 2 * RUNS];
         for (runs, ends) in found.runs.iter_mut().zip(ends.as_chunks_mut::<RUNS>().0) {
@@ -117,7 +172,7 @@ impl Chunk {
             for shell in (0..SHELLS).rev() {
                 while !shells[shell].len().is_multiple_of(GROUP) {
                     if shell == 0 {
-                        shells[shell].push(nobody);
+                        shells[shell].push(padding);
                     } else if let Some(slot) = shells[shell].pop() {
                         // An inner shell takes any candidate.
                         shells[shell - 1].push(slot);
@@ -125,11 +180,11 @@ impl Chunk {
                 }
             }
             for (shell, end) in shells.iter_mut().zip(ends.iter_mut()) {
-                self.lanes += crate::LANES * shell.len();
+                self.lanes += LANES * shell.len();
                 self.candidates.append(shell);
                 *end = (self.candidates.len() - first) as u32;
             }
-            self.lanes += crate::LANES * pairs;
+            self.lanes += LANES * pairs;
             for (left, right) in left.drain(..).zip(right.drain(..)) {
                 self.candidates.extend([left, right]);
             }

@@ -3,28 +3,27 @@
 use fearless_simd::Level;
 use rayon::prelude::*;
 
-use crate::block::{Block, Chunk, SHELLS};
+use crate::block::{BLOCKS_PER_CHUNK, Blocks, SHELLS};
 use crate::cells::Cells;
 use crate::clusters::cluster;
-use crate::search::{Scratch, Search};
+use crate::octaves::Octaves;
+use crate::reaches::Reaches;
+use crate::search::{Members, Scratch, Search};
 use crate::{Bounds, Domain, LANES, point};
 
 /// A source as the pair loop reads it: coordinates (zero beyond D) and its weight, usually the volume, last.
 pub type Slot = [f64; 4];
 
-/// Blocks that one task handles.
-const BLOCKS_PER_CHUNK: usize = 16;
-
 /// Blocks whose surroundings are collected at once.
 const SEARCHED_TOGETHER: usize = 4;
-
-/// Small cells follow a sphere closely, large ones are few.
-const CELL_OVER_REACH: f64 = 0.5;
 
 /// Neighbours of moving particles: blocks of [`LANES`] particles that share one list of candidates.
 ///
 /// Some particles are *targets* (their neighbours are wanted), all are *sources*. A list made for a support radius
 /// plus a skin serves until some particle has moved half the skin; [`CellList::update`] sees to that.
+///
+/// All look equally far ([`CellList::update`]), or each as far as it says ([`CellList::update_each`]): then two are neighbours
+/// of each other where either sees the other, so that sums over W(h_i), over W(h_j) and over a mean find all they need.
 ///
 /// Memory: 4 bytes per candidate and block (1.3 bytes per pair of SPH particles) and about 60 bytes per particle. Cost of
 /// a build: O(n log n), parallel; three to four evaluations of density and force. The same bits for any number of
@@ -34,15 +33,19 @@ const CELL_OVER_REACH: f64 = 0.5;
 /// use sphpack_neighbors::{CellList, Domain};
 ///
 /// let points = vec![[0.0, 0.0], [0.3, 0.0], [0.9, 0.9]];
-/// let mut near = CellList::new(&Domain::new([0.0, 0.0], [1.0, 1.0]), 0.5);
-/// near.update(&points, |_| true);
-/// assert_eq!(near.of(0, &points), vec![1]);
+/// let mut list = CellList::new(&Domain::new([0.0, 0.0], [1.0, 1.0]), 0.5);
+/// list.update(&points);
+/// assert_eq!(list.of(0, &points), vec![1]);
+/// // Everything within reach, by particle and shift (zero without periodic sides).
+/// for (j, shift) in list.neighbors(0) {
+///     let apart: f64 = (0..2).map(|k| (points[0][k] - points[j][k] - shift[k]).powi(2)).sum();
+///     assert!(apart.sqrt() <= 0.5);
+/// }
 /// ```
 #[derive(Debug, Clone)]
 pub struct CellList<const D: usize> {
     domain: Domain<D>,
-    support: f64,
-    skin: f64,
+    reaches: Reaches,
     /// Where the shells after the first begin.
     shells: [f64; SHELLS - 1],
     /// Positions at the last build.
@@ -53,12 +56,12 @@ pub struct CellList<const D: usize> {
     /// What to add to a particle's position to get its slot's; empty without periodic axes.
     shift: Vec<[f64; D]>,
     slot_of: Vec<u32>,
-    chunks: Vec<Chunk>,
-    cells: Cells<D>,
+    blocks: Blocks,
+    sorted: Octaves<D>,
     /// The instructions that the search uses.
     level: Level,
-    /// Where the slot of nobody is: out of reach of all.
-    nobody: [f64; D],
+    /// Where the padding slot is: out of reach of all.
+    padding: [f64; D],
     builds: usize,
 }
 
@@ -67,26 +70,27 @@ impl<const D: usize> CellList<D> {
     pub fn new(domain: &Domain<D>, support: f64) -> Self {
         Self {
             domain: *domain,
-            support,
-            skin: 0.0,
+            reaches: Reaches::one(support, 0.0),
             shells: [f64::INFINITY; SHELLS - 1],
             level: Level::new(),
-            nobody: [0.0; D],
+            padding: [0.0; D],
             reference: Vec::new(),
             targets: 0,
             particle: Vec::new(),
             shift: Vec::new(),
             slot_of: Vec::new(),
-            chunks: Vec::new(),
-            cells: Cells::default(),
+            blocks: Blocks::default(),
+            sorted: Octaves::default(),
             builds: 0,
         }
     }
 
-    /// Makes lists that hold until some particle has moved half of `skin` (scene units).
+    /// Makes lists that hold until some particle has moved half of `skin`: scene units, or parts of each particle's own
+    /// support where these differ.
     #[must_use]
-    pub fn with_skin(self, skin: f64) -> Self {
-        Self { skin, ..self }
+    pub fn with_skin(mut self, skin: f64) -> Self {
+        self.reaches.set_skin(skin);
+        self
     }
 
     /// [`CellList::set_shells`] from the start.
@@ -97,8 +101,8 @@ impl<const D: usize> CellList<D> {
     }
 
     /// Sorts the candidates of every block into shells: as long as a list holds, those of shell `s` are at least
-    /// `radii[s − 1]` away from every target of the block. Radii (scene units) ascend; without them all is shell 0.
-    /// Other radii than before make the next [`CellList::update`] build anew.
+    /// `radii[s − 1]` away from every target of the block. Radii (scene units; where supports differ, parts of the greater one
+    /// of a pair) ascend; without them all is shell 0. Other radii than before make the next update build anew.
     pub fn set_shells(&mut self, radii: [f64; SHELLS - 1]) {
         if radii != self.shells {
             self.shells = radii;
@@ -111,9 +115,9 @@ impl<const D: usize> CellList<D> {
         &self.domain
     }
 
-    /// The support radius.
+    /// The support radius; where supports differ, the greatest of the last build.
     pub fn support(&self) -> f64 {
-        self.support
+        self.reaches.support
     }
 
     /// How many times a list was built.
@@ -122,7 +126,7 @@ impl<const D: usize> CellList<D> {
     }
 
     /// The positions at the last build: a list built from these again, with the same shells and targets, has the same
-    /// slots. Empty where the next [`CellList::update`] builds anew.
+    /// slots. Empty where the next update builds anew.
     pub fn reference(&self) -> &[[f64; D]] {
         &self.reference
     }
@@ -151,37 +155,59 @@ impl<const D: usize> CellList<D> {
         (self.particle.iter().enumerate()).map(move |(slot, &i)| (i as usize, shift(slot)))
     }
 
-    /// Brings the list up to date; true where it had to be built anew: the number of points changed, or one moved
-    /// more than half the skin. Positions must be finite. Changing which particles are targets needs
-    /// [`CellList::invalidate`].
-    pub fn update(
+    /// Brings a list of which all particles are targets up to date; true where it had to be built anew: the number of points
+    /// changed, or one moved more than half the skin. Positions must be finite.
+    pub fn update(&mut self, positions: &[[f64; D]]) -> bool {
+        self.update_some(positions, |_| true)
+    }
+
+    /// [`CellList::update`] where only some particles are targets. Changing which needs [`CellList::invalidate`].
+    pub fn update_some(
         &mut self,
         positions: &[[f64; D]],
         is_target: impl Fn(usize) -> bool + Sync,
     ) -> bool {
-        if positions.len() == self.reference.len() && self.builds > 0 {
-            let limit = 0.25 * self.skin * self.skin;
-            let moved = positions
-                .par_iter()
-                .zip(&self.reference)
-                .with_min_len(4096)
-                .any(|(&p, &q)| point::distance_squared(p, q) > limit);
-            if !moved {
-                return false;
-            }
-        }
-        self.build(positions, is_target);
-        true
+        self.update_with(positions, None, is_target)
     }
 
-    /// Makes the next [`CellList::update`] build anew.
+    /// [`CellList::update_some`] where every particle has a support radius of its own (scene units, positive, finite),
+    /// which may change while it moves.
+    ///
+    /// # Panics
+    /// Where there is not one support for every position.
+    pub fn update_each(
+        &mut self,
+        positions: &[[f64; D]],
+        supports: &[f64],
+        is_target: impl Fn(usize) -> bool + Sync,
+    ) -> bool {
+        assert_eq!(positions.len(), supports.len(), "one support per particle");
+        self.update_with(positions, Some(supports), is_target)
+    }
+
+    fn update_with(
+        &mut self,
+        positions: &[[f64; D]],
+        supports: Option<&[f64]>,
+        is_target: impl Fn(usize) -> bool + Sync,
+    ) -> bool {
+        let holds =
+            self.builds > 0 && (self.reaches).still_hold(&self.reference, positions, supports);
+        if !holds {
+            self.reaches.set(supports);
+            self.build(positions, is_target);
+        }
+        !holds
+    }
+
+    /// Makes the next update build anew.
     pub fn invalidate(&mut self) {
         self.reference.clear();
         self.builds = 0;
     }
 
     fn build(&mut self, positions: &[[f64; D]], is_target: impl Fn(usize) -> bool + Sync) {
-        let reach = self.support + self.skin;
+        let reach = self.reaches.greatest();
         self.reference.clear();
         self.reference.extend_from_slice(positions);
         self.builds += 1;
@@ -222,12 +248,9 @@ impl<const D: usize> CellList<D> {
 
         // Sources that are no targets, in the order of the grid: what is near in space is near in memory.
         let mut sources = self.source_positions(positions);
-        let others = &sources[self.targets..];
-        self.cells.build(others, reach);
-        let mut order: Vec<usize> = self
-            .cells
-            .items()
-            .iter()
+        let mut cells = Cells::default();
+        cells.build(&sources[self.targets..], reach);
+        let mut order: Vec<usize> = (cells.items().iter())
             .map(|&k| self.targets + k as usize)
             .collect();
         // A pair with a target's image is a pair of targets: images come before sources that are no targets.
@@ -242,42 +265,47 @@ impl<const D: usize> CellList<D> {
         }
         reorder_tail(&mut sources, self.targets, &order);
 
-        self.cells.build(&sources, CELL_OVER_REACH * reach);
-        let by_cell: Vec<[f64; D]> = self
-            .cells
-            .items()
-            .par_iter()
-            .with_min_len(4096)
-            .map(|&slot| sources[slot as usize])
-            .collect();
+        let mut reaches = Vec::new();
+        if self.reaches.are_many() {
+            let reach = |&i: &u32| self.reaches.listed(i as usize);
+            reaches.extend(self.particle.iter().map(reach));
+            self.sorted.build_many(&sources, &reaches);
+        } else {
+            self.sorted.build_one(&sources, reach);
+        }
         let search = Search {
-            cells: &self.cells,
-            sources: &by_cell,
+            sorted: &self.sorted,
             targets: self.targets + images,
             reach,
-            // Both ends of a pair may come half a skin nearer.
-            begins: self.shells.map(|r| r + self.skin),
+            begins: self.shells.map(|begin| self.reaches.shell(begin)),
             level: self.level,
         };
         let targets = &sources[..self.targets];
-        let nobody = sources.len() as u32;
-        let blocks = self.targets.div_ceil(LANES);
-        self.chunks
-            .resize_with(blocks.div_ceil(BLOCKS_PER_CHUNK), Chunk::default);
-        self.chunks
+        let padding = sources.len() as u32;
+        let chunks = self.blocks.chunks_for(self.targets);
+        chunks
             .par_iter_mut()
             .zip(targets.par_chunks(BLOCKS_PER_CHUNK * LANES))
-            .for_each_init(Scratch::default, |scratch, (chunk, targets)| {
+            .enumerate()
+            .for_each_init(Scratch::default, |scratch, (number, (chunk, targets))| {
                 chunk.clear();
+                let mut first = number * BLOCKS_PER_CHUNK * LANES;
                 for few in targets.chunks(SEARCHED_TOGETHER * LANES) {
+                    // Empty where all have one reach.
+                    let their = reaches.get(first..first + few.len()).unwrap_or(&[]);
+                    first += few.len();
+                    let few = Members {
+                        positions: few,
+                        reaches: their,
+                    };
                     search.surround(few, scratch);
-                    for members in few.chunks(LANES) {
+                    for members in few.blocks() {
                         search.block(members, scratch);
-                        chunk.add_block(&mut scratch.found, nobody);
+                        chunk.add_block(&mut scratch.found, padding);
                     }
                 }
             });
-        self.nobody = point::add(Bounds::of(&sources).max, [2.0 * reach; D]);
+        self.padding = point::add(Bounds::of(&sources).max, [2.0 * reach; D]);
     }
 
     /// Appends a slot for every periodic image within `reach` of the box; fills `shift`.
@@ -308,7 +336,29 @@ impl<const D: usize> CellList<D> {
         sources
     }
 
-    /// Writes every source's present position times `unit` and weight into its slot, and the slot of nobody behind
+    /// Slot by slot, what `value` says of the slot's particle and its shift ([`CellList::sources`]), and `padding` for the padding
+    /// slot behind them: any field, images included. O(n), parallel, no allocation once `out` has its size.
+    pub fn gather_with<T: Copy + Send + Sync>(
+        &self,
+        value: impl Fn(usize, [f64; D]) -> T + Sync,
+        padding: T,
+        out: &mut Vec<T>,
+    ) {
+        let slot = |number: usize| {
+            let Some(&i) = self.particle.get(number) else {
+                return padding;
+            };
+            let shift = self.shift.get(number).copied().unwrap_or([0.0; D]);
+            value(i as usize, shift)
+        };
+        (0..self.particle.len() + 1)
+            .into_par_iter()
+            .with_min_len(4096)
+            .map(slot)
+            .collect_into_vec(out);
+    }
+
+    /// Writes every source's present position times `unit` and weight into its slot, and the padding slot behind
     /// them; `weights` has one entry per particle. O(n), parallel, no allocation once `slots` has its size.
     pub fn gather(
         &self,
@@ -317,26 +367,18 @@ impl<const D: usize> CellList<D> {
         unit: f64,
         slots: &mut Vec<Slot>,
     ) {
-        let slot = |number: usize| {
-            let Some(&i) = self.particle.get(number) else {
-                let mut slot = [0.0; 4];
-                slot[..D].copy_from_slice(&point::scale(self.nobody, unit));
-                return slot;
-            };
-            let i = i as usize;
-            let mut p = positions[i];
-            if !self.shift.is_empty() {
-                p = point::add(p, self.shift[number]);
-            }
-            let mut slot = [0.0, 0.0, 0.0, weights[i]];
+        let slot = |p: [f64; D], weight: f64| {
+            let mut slot = [0.0, 0.0, 0.0, weight];
             slot[..D].copy_from_slice(&point::scale(p, unit));
             slot
         };
-        (0..self.particle.len() + 1)
-            .into_par_iter()
-            .with_min_len(4096)
-            .map(slot)
-            .collect_into_vec(slots);
+        let padding = slot(self.padding, 0.0);
+        if self.shift.is_empty() {
+            self.gather_with(|i, _| slot(positions[i], weights[i]), padding, slots);
+        } else {
+            let shifted = |i: usize, shift| slot(point::add(positions[i], shift), weights[i]);
+            self.gather_with(shifted, padding, slots);
+        }
     }
 
     /// Writes other weights into gathered `slots`; `weights` has one entry per particle. O(n), parallel.
@@ -348,58 +390,40 @@ impl<const D: usize> CellList<D> {
             .for_each(|(slot, &i)| slot[3] = weights[i as usize]);
     }
 
-    /// Runs `f` over all blocks in parallel. `out` has one entry per target slot; a block gets those of its targets.
-    /// No allocation.
-    ///
-    /// # Panics
-    /// Where `out` is not as long as there are targets.
-    pub fn for_each_block<R: Send>(&self, out: &mut [R], f: impl Fn(Block<'_>, &mut [R]) + Sync) {
-        assert_eq!(out.len(), self.targets, "one output per target");
-        out.par_chunks_mut(BLOCKS_PER_CHUNK * LANES)
-            .zip(&self.chunks)
-            .enumerate()
-            .for_each(|(number, (out, chunk))| {
-                let first = number * BLOCKS_PER_CHUNK * LANES;
-                for (block, out) in out.chunks_mut(LANES).enumerate() {
-                    f(chunk.block(block, first + block * LANES, out.len()), out);
-                }
-            });
+    /// The blocks that pair loops run over.
+    pub fn blocks(&self) -> &Blocks {
+        &self.blocks
     }
 
-    /// Candidates over all blocks and lanes: what the pair loop evaluates, pairs beyond the support included.
-    pub fn lane_pairs(&self) -> usize {
-        self.chunks.iter().map(Chunk::lanes).sum()
+    /// Candidates of target `i`, itself left out, by particle and shift: x_i − (x_j + shift) is the way from `j`, or from an
+    /// image of it, to `i`. All within either's support are among them, and others as far as the skin and the block go.
+    /// Nothing where `i` is no target. One target at a time: for all of them [`CellList::blocks`] is many times faster.
+    pub fn neighbors(&self, i: usize) -> impl Iterator<Item = (usize, [f64; D])> + '_ {
+        let shift = |slot: usize| self.shift.get(slot).copied().unwrap_or([0.0; D]);
+        let near = move |slot: usize| {
+            (self.blocks.of_slot(slot).sources())
+                .filter(move |&other| other != slot)
+                .map(move |other| {
+                    let shift = point::sub(shift(other), shift(slot));
+                    (self.particle[other] as usize, shift)
+                })
+        };
+        self.slot_of(i).into_iter().flat_map(near)
     }
 
-    /// The particles within the support of target `i`, itself left out, with x_i − x_j; an image counts as its particle,
-    /// and appears once for each image in reach. Nothing where `i` is no target. One target at a time: for a few of
-    /// many, [`CellList::for_each_block`] goes over all.
+    /// The particles within the support of target `i`, or of which it is within theirs, itself left out, with x_i − x_j; an
+    /// image counts as its particle, and appears once for each image in reach. Nothing where `i` is no target.
     pub fn around<'a>(
         &'a self,
         i: usize,
         positions: &'a [[f64; D]],
     ) -> impl Iterator<Item = (usize, [f64; D])> + 'a {
-        let position = |slot: usize| {
-            let p = positions[self.particle[slot] as usize];
-            self.shift
-                .get(slot)
-                .map_or(p, |&shift| point::add(p, shift))
-        };
-        let near = move |slot: usize| {
-            let (block, here) = (slot / LANES, position(slot));
-            self.chunks[block / BLOCKS_PER_CHUNK]
-                .block(block % BLOCKS_PER_CHUNK, slot, 1)
-                .candidates
-                .iter()
-                .map(|&other| other as usize)
-                .filter(move |&other| other != slot && other < self.particle.len())
-                .map(move |other| {
-                    let apart = point::sub(here, position(other));
-                    (self.particle[other] as usize, apart)
-                })
-                .filter(|(_, apart)| point::norm_squared(*apart) <= self.support * self.support)
-        };
-        self.slot_of(i).into_iter().flat_map(near)
+        self.neighbors(i)
+            .map(move |(j, shift)| (j, point::sub(positions[i], point::add(positions[j], shift))))
+            .filter(move |&(j, apart)| {
+                let support = self.reaches.of_pair(i, j);
+                point::norm_squared(apart) <= support * support
+            })
     }
 
     /// The particles of [`CellList::around`], ascending. For tests and tools, not for loops.

@@ -16,14 +16,16 @@ mod cells;
 mod clusters;
 mod domain;
 mod kd_tree;
+mod octaves;
 pub mod point;
+mod reaches;
 mod search;
 pub mod words;
 
 #[cfg(test)]
 mod tests;
 
-pub use block::{Block, GROUP, SHELLS};
+pub use block::{Block, Blocks, GROUP, SHELLS};
 pub use bounds::Bounds;
 pub use cell_list::{CellList, Slot};
 pub use domain::Domain;

@@ -89,9 +89,9 @@ fn check_cell_list<const D: usize>(
     let mut list = CellList::new(&domain, radius).with_skin(skin);
     // Every third particle is only a source, as frozen ones are.
     let is_target = |i: usize| !i.is_multiple_of(3) || !points.len().is_multiple_of(2);
-    prop_assert!(list.update(points, is_target));
+    prop_assert!(list.update_some(points, is_target));
     let later = moved(points, 0.499 * skin);
-    prop_assert!(!list.update(&later, is_target) || points.is_empty());
+    prop_assert!(!list.update_some(&later, is_target) || points.is_empty());
     for (positions, what) in [(points, "at once"), (&later[..], "within the skin")] {
         for i in 0..positions.len() {
             let expected = if is_target(i) {
@@ -122,7 +122,7 @@ fn check_cell_list<const D: usize>(
         .zip(points)
         .any(|(&a, &b)| point::distance(a, b) > 0.5 * skin)
     {
-        prop_assert!(list.update(&far, is_target), "too far for the skin");
+        prop_assert!(list.update_some(&far, is_target), "too far for the skin");
     }
     Ok(())
 }
@@ -184,11 +184,11 @@ fn the_same_bits_for_any_number_of_threads() {
             .expect("a thread pool");
         pool.install(|| {
             let mut list = CellList::new(&Domain::new([0.0; 3], [1.0; 3]), 0.06).with_skin(0.01);
-            list.update(&points, |i| i % 5 != 0);
+            list.update_some(&points, |i| i % 5 != 0);
             let mut slots = Vec::new();
             list.gather(&points, &vec![1.0; points.len()], 1.0, &mut slots);
             let mut sums = vec![0.0; list.targets()];
-            list.for_each_block(&mut sums, |block, out| {
+            list.blocks().for_each(&mut sums, |block, out| {
                 for (lane, sum) in out.iter_mut().enumerate() {
                     let here = slots[block.first_slot + lane];
                     *sum = block
@@ -214,17 +214,17 @@ fn blocks_of_a_lattice_are_compact() {
         .map(|i| [(i / n / n) as f64, (i / n % n) as f64, (i % n) as f64])
         .collect();
     let mut list = CellList::new(&Domain::new([-0.5; 3], [15.5; 3]), 3.0);
-    list.update(&points, |_| true);
+    list.update(&points);
     assert_eq!(list.targets(), n * n * n);
     let pairs: usize = (0..points.len())
         .map(|i| list.of(i, &points).len() + 1)
         .sum();
     assert!(
-        list.lane_pairs() < 3 * pairs,
+        list.blocks().lane_pairs() < 3 * pairs,
         "{} lanes for {pairs} pairs",
-        list.lane_pairs()
+        list.blocks().lane_pairs()
     );
-    assert_eq!(list.lane_pairs() % LANES, 0);
+    assert_eq!(list.blocks().lane_pairs() % LANES, 0);
 }
 
 #[test]
@@ -241,15 +241,15 @@ fn shells_and_halves_keep_their_promises() {
     let mut list = CellList::new(&domain, support)
         .with_skin(skin)
         .with_shells(radii);
-    list.update(&points, |i| i % 7 != 0);
+    list.update_some(&points, |i| i % 7 != 0);
     let later = moved(&points, 0.499 * skin);
-    assert!(!list.update(&later, |i| i % 7 != 0));
+    assert!(!list.update_some(&later, |i| i % 7 != 0));
     let mut slots = Vec::new();
     list.gather(&later, &vec![1.0; later.len()], 1.0, &mut slots);
     let at = |slot: u32| -> [f64; 3] { std::array::from_fn(|k| slots[slot as usize][k]) };
     let targets = list.targets();
     let mut counts = vec![(0, 0, 0); targets];
-    list.for_each_block(&mut counts, |block, counts| {
+    list.blocks().for_each(&mut counts, |block, counts| {
         let here = |lane: usize| at((block.first_slot + lane) as u32);
         for (lane, (full, split, all)) in counts.iter_mut().enumerate() {
             let near = |slot: u32| point::distance(at(slot), here(lane)) <= support;
@@ -282,11 +282,11 @@ fn shells_and_halves_keep_their_promises() {
         counts.iter().any(|&(_, split, _)| split > 0),
         "some are split"
     );
-    // The slot of nobody weighs nothing and is out of everybody's reach.
-    let nobody = slots.last().expect("a slot of nobody");
-    let nobody_at: [f64; 3] = std::array::from_fn(|k| nobody[k]);
-    assert_eq!((slots.len(), nobody[3]), (points.len() + 1, 0.0));
-    assert!(Bounds::of(&later).distance_squared(nobody_at) > support * support);
+    // The padding slot weighs nothing and is out of everybody's reach.
+    let padding = slots.last().expect("a padding slot");
+    let padding_at: [f64; 3] = std::array::from_fn(|k| padding[k]);
+    assert_eq!((slots.len(), padding[3]), (points.len() + 1, 0.0));
+    assert!(Bounds::of(&later).distance_squared(padding_at) > support * support);
 }
 
 #[test]

@@ -11,7 +11,7 @@ use sphpack_kernels::{Kernel, KernelKind, Quintic};
 use sphpack_neighbors::{Bounds, Domain, KdTree, point};
 use sphpack_packing::Lattice;
 use sphpack_packing::forces::{Forces, Levelling};
-use sphpack_packing::repulsion::{Repulsion, STRENGTH};
+use sphpack_pairs::Repulsion;
 
 /// Particles that the scalar loop runs over.
 const SCALAR: usize = 20_000;
@@ -66,7 +66,7 @@ fn bench<const D: usize>(c: &mut Criterion, name: &str, set: &Set<D>, h: f64) {
         KernelKind::Quintic,
         h,
         0.3,
-        Repulsion::new(1.0, STRENGTH),
+        Repulsion::new(1.0, Repulsion::STRENGTH),
     );
     let mut evaluate = |way: Way| {
         if way == Way::NewList {

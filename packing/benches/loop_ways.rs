@@ -12,7 +12,7 @@ use sphpack_kernels::{Kernel, KernelKind, Quintic};
 use sphpack_neighbors::{Block, Bounds, CellList, Domain, KdTree, LANES, Slot, point};
 use sphpack_packing::Lattice;
 use sphpack_packing::forces::Forces;
-use sphpack_packing::repulsion::Repulsion;
+use sphpack_pairs::Repulsion;
 
 /// h in ∆s.
 const H: f64 = 1.2;
@@ -115,7 +115,7 @@ fn tabulated<const D: usize>(
 
 /// The blocks of a cell list with differences, kernel and sums of a block in single precision: sixteen lanes.
 fn single<const D: usize>(list: &CellList<D>, slots: &[Slot], level: Level, out: &mut [Sum<D>]) {
-    list.for_each_block(out, |block, out| {
+    list.blocks().for_each(out, |block, out| {
         dispatch!(level, simd => single_block(simd, slots, &block, out));
     });
 }
@@ -267,7 +267,7 @@ fn bench<const D: usize>(c: &mut Criterion, name: &str, side: f64) {
     let mut list = CellList::new(&domain, SUPPORT)
         .with_skin(0.3)
         .with_shells([1e-3, H, 2.0 * H]);
-    list.update(&x, |_| true);
+    list.update(&x);
     let mut slots = Vec::new();
     list.gather(&x, &volumes, 1.0, &mut slots);
     let (table, level) = (table::<D>(), Level::new());

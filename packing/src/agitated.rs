@@ -14,9 +14,9 @@ use crate::on_surface::OnSurface;
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::Repulsion;
 use crate::seeding::{Seeds, particle_surfaces, seed};
 use crate::state::Captured;
+use sphpack_pairs::Repulsion;
 
 mod near;
 #[cfg(test)]

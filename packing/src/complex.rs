@@ -12,7 +12,7 @@ use crate::packed::{Packed, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{Body, PackingError, Problem};
 use crate::relaxation::{Interface, Relaxation, Relaxed};
-use crate::repulsion::Repulsion;
+use sphpack_pairs::Repulsion;
 
 /// The paper's complex relaxation (004 §2.3), in the plane and in space, and a levelling after it.
 ///

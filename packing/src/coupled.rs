@@ -13,9 +13,9 @@ use crate::on_surface::OnSurface;
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::Repulsion;
 use crate::seeding::{Seeds, particle_surfaces, seed};
 use crate::watch::Watch;
+use sphpack_pairs::Repulsion;
 
 /// The coupled method (001 §3.3, algorithms 4 and 5, after Jiang et al. 2015), in the plane and in space.
 ///

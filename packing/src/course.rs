@@ -11,8 +11,8 @@ use crate::observer::{Keeper, Observer, Phase, Progress, Sample};
 use crate::packed::{Packed, ParticleSurface, Seconds, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::Repulsion;
 use crate::state::{Damaged, State, Value, values};
+use sphpack_pairs::Repulsion;
 
 /// What a method keeps beside its particles.
 pub(crate) struct Course<'a> {

@@ -1,18 +1,16 @@
 //! Density and forces of a particle set, evaluated again and again while it moves.
 
-use std::any::Any;
 use std::io::{self, Write};
 use std::time::Instant;
 
 use fearless_simd::Level;
 use rayon::prelude::*;
-use sphpack_kernels::{CohesionPotential, KernelKind, WithKernel};
-use sphpack_neighbors::{CellList, Domain, Slot};
+use sphpack_kernels::{KernelKind, WithKernel};
+use sphpack_neighbors::{CellList, Domain};
+use sphpack_pairs::{Gathered, PackingSum, PackingSums, Repulsion, RepulsionSum, Shape};
 
-use crate::pair_sums::{self, GradientLoop, PairLoop, Shells, Sums};
 use crate::particles::Particles;
 use crate::problem::Problem;
-use crate::repulsion::Repulsion;
 use crate::state::{Damaged, State, Value, all_finite, put_list, values};
 
 /// Particles per block of a reduction. Fixed, so that sums have the same bits for any number of threads.
@@ -55,41 +53,10 @@ impl Levelling {
     }
 }
 
-/// What acts between pairs.
-#[derive(Debug, Clone, Copy)]
-enum Interaction {
-    Smoothing(KernelKind),
-    Cohesion,
-}
-
-impl Interaction {
-    fn with<const D: usize, W: WithKernel<D>>(self, length: f64, work: W) -> W::Output {
-        match self {
-            Self::Smoothing(kernel) => kernel.with(length, work),
-            Self::Cohesion => work.call(CohesionPotential::<D>::new(length)),
-        }
-    }
-}
-
-/// What a loop over the pairs sums up.
-#[derive(Debug, Clone, Copy)]
-enum Pass {
-    Sums,
-    ExcessGradient,
-}
-
-fn over_pairs_in_plane(forces: &mut Forces<2>, pass: Pass) {
-    forces.over_pairs_here(pass);
-}
-
-fn over_pairs_in_space(forces: &mut Forces<3>, pass: Pass) {
-    forces.over_pairs_here(pass);
-}
-
 /// Evaluates Γ, ∇Γ, repulsion and energy; keeps the neighbour list between calls.
 #[derive(Debug)]
 pub struct Forces<const D: usize> {
-    interaction: Interaction,
+    shape: Shape,
     smoothing_length: f64,
     /// The repulsion, which may be changed between evaluations.
     pub repulsion: Repulsion,
@@ -103,12 +70,12 @@ pub struct Forces<const D: usize> {
     /// The farthest that the repulsion has reached so far; what is farther in the list is not asked for it.
     reach: f64,
     level: Level,
-    slots: Vec<Slot>,
-    sums: Vec<Sums<D>>,
+    gathered: Gathered,
+    sums: Vec<PackingSum>,
     /// V (Γ − Γ₀) of every particle, 0 for those that are no targets or are not levelled.
     excess: Vec<f64>,
     /// Σ_j V_j (Γ_j − Γ₀) ∇_iW_ij of every target slot.
-    excess_gradient: Vec<[f64; D]>,
+    excess_gradient: Vec<[f64; 3]>,
     evaluations: usize,
     neighbor_seconds: f64,
     force_seconds: f64,
@@ -126,7 +93,7 @@ impl<const D: usize> Forces<D> {
         let support = kernel.support_over_h() * smoothing_length;
         Self::between(
             domain,
-            Interaction::Smoothing(kernel),
+            Shape::Smoothing(kernel),
             smoothing_length,
             support,
             skin,
@@ -139,7 +106,7 @@ impl<const D: usize> Forces<D> {
     pub fn of_cohesion(domain: &Domain<D>, support: f64, skin: f64) -> Self {
         Self::between(
             domain,
-            Interaction::Cohesion,
+            Shape::Cohesion,
             support,
             support,
             skin,
@@ -149,15 +116,14 @@ impl<const D: usize> Forces<D> {
 
     fn between(
         domain: &Domain<D>,
-        interaction: Interaction,
+        shape: Shape,
         smoothing_length: f64,
         support: f64,
         skin: f64,
         repulsion: Repulsion,
     ) -> Self {
-        const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         Self {
-            interaction,
+            shape,
             smoothing_length,
             repulsion,
             levelling: None,
@@ -166,7 +132,7 @@ impl<const D: usize> Forces<D> {
             built_at: None,
             reach: 0.0,
             level: Level::new(),
-            slots: Vec::new(),
+            gathered: Gathered::default(),
             sums: Vec::new(),
             excess: Vec::new(),
             excess_gradient: Vec::new(),
@@ -207,20 +173,21 @@ impl<const D: usize> Forces<D> {
             .take_if(|places| places.len() == positions.len())
         {
             self.set_shells();
-            self.list.update(&places, &is_target);
-            self.sums.resize(self.list.targets(), Sums::ZERO);
+            self.list.update_some(&places, &is_target);
+            self.sums.resize(self.list.targets(), PackingSum::default());
         }
         if self.list.builds() == 0 || self.repulsion.reach() > self.reach {
             self.reach = self.repulsion.reach().max(self.reach);
             self.set_shells();
         }
-        if self.list.update(positions, is_target) {
-            self.sums.resize(self.list.targets(), Sums::ZERO);
+        if self.list.update_some(positions, is_target) {
+            self.sums.resize(self.list.targets(), PackingSum::default());
         }
         let listed = Instant::now();
-        let unit = pair_sums::unit(self.smoothing_length);
-        self.list.gather(positions, volumes, unit, &mut self.slots);
-        self.over_pairs(Pass::Sums);
+        let h = self.smoothing_length;
+        self.gathered.gather(&self.list, positions, volumes, h);
+        let pairs = sums_of(self.shape, h, &self.list, &self.gathered, self.level);
+        pairs.sum::<D>(self.repulsion, &mut self.sums);
         if let Some(levelling) = self.levelling {
             self.level_out(levelling, volumes);
         }
@@ -230,9 +197,8 @@ impl<const D: usize> Forces<D> {
     }
 
     fn set_shells(&mut self) {
-        let shells = Shells { reach: self.reach };
-        self.list
-            .set_shells(self.interaction.with::<D, _>(self.smoothing_length, shells));
+        let shells = self.shape.shells::<D>(self.smoothing_length, self.reach);
+        self.list.set_shells(shells);
     }
 
     /// The second pass, which needs every Γ.
@@ -242,52 +208,14 @@ impl<const D: usize> Forces<D> {
         for (sums, &i) in self.sums.iter().zip(self.list.target_particles()) {
             let i = i as usize;
             if is_levelled(&self.levelled, i) {
-                self.excess[i] = volumes[i] * levelling.excess(sums.gamma)[1];
+                self.excess[i] = volumes[i] * levelling.excess(sums.0.whole)[1];
             }
         }
-        self.list.weigh(&self.excess, &mut self.slots);
-        self.excess_gradient.resize(self.list.targets(), [0.0; D]);
-        self.over_pairs(Pass::ExcessGradient);
-    }
-
-    /// Runs a pair loop over the list. The loops are long code, for every kernel and vector width; by way of functions
-    /// that are not generic they are compiled with this crate, once, and not with every crate that packs.
-    fn over_pairs(&mut self, pass: Pass) {
-        let forces: &mut dyn Any = self;
-        if let Some(plane) = forces.downcast_mut::<Forces<2>>() {
-            over_pairs_in_plane(plane, pass);
-        } else if let Some(space) = forces.downcast_mut::<Forces<3>>() {
-            over_pairs_in_space(space, pass);
-        }
-    }
-
-    #[inline(always)]
-    fn over_pairs_here(&mut self, pass: Pass) {
-        let unit = pair_sums::unit(self.smoothing_length);
-        let h = self.smoothing_length * unit;
-        match pass {
-            Pass::Sums => {
-                let pairs = PairLoop {
-                    list: &self.list,
-                    slots: &self.slots,
-                    unit,
-                    level: self.level,
-                    repulsion: self.repulsion,
-                    out: &mut self.sums,
-                };
-                self.interaction.with(h, pairs);
-            }
-            Pass::ExcessGradient => {
-                let pairs = GradientLoop {
-                    list: &self.list,
-                    slots: &self.slots,
-                    unit,
-                    level: self.level,
-                    out: &mut self.excess_gradient,
-                };
-                self.interaction.with(h, pairs);
-            }
-        }
+        self.gathered.weigh(&self.list, &self.excess);
+        self.excess_gradient.resize(self.list.targets(), [0.0; 3]);
+        let h = self.smoothing_length;
+        let pairs = sums_of(self.shape, h, &self.list, &self.gathered, self.level);
+        pairs.gradient::<D>(&mut self.excess_gradient);
     }
 
     /// Must be called when a particle starts or stops being frozen.
@@ -297,36 +225,34 @@ impl<const D: usize> Forces<D> {
     }
 
     #[inline]
-    fn sums(&self, i: usize) -> Sums<D> {
-        self.list
-            .slot_of(i)
-            .map_or(Sums::ZERO, |slot| self.sums[slot])
+    fn sums(&self, i: usize) -> PackingSum {
+        (self.list.slot_of(i)).map_or(PackingSum::default(), |slot| self.sums[slot])
     }
 
     /// Γ of particle `i` at the last evaluation; 0 for frozen ones.
     #[inline]
     pub fn gamma(&self, i: usize) -> f64 {
-        self.sums(i).gamma
+        self.sums(i).0.whole
     }
 
     /// ∇Γ of particle `i` at the last evaluation, per scene unit; zero for frozen ones.
     #[inline]
     pub fn gradient(&self, i: usize) -> [f64; D] {
-        self.sums(i).gradient
+        first(self.sums(i).1)
     }
 
     /// −∇Γ plus repulsion: the acceleration of particle `i` for p_b = 1 (001 eqs. 13 and 16), per scene unit.
     #[inline]
     pub fn acceleration(&self, i: usize) -> [f64; D] {
-        let sums = self.sums(i);
-        std::array::from_fn(|k| sums.repulsion[k] - sums.gradient[k])
+        let (_, gradient, repulsion) = self.sums(i);
+        std::array::from_fn(|k| repulsion.acceleration[k] - gradient[k])
     }
 
     /// The energy whose negative gradient the accelerations are (for equal volumes), per particle volume:
     /// ½ Σ_ij V W_ij + Σ_pairs φ_R, every pair with a frozen particle counted once.
     pub fn energy(&self) -> f64 {
-        blocked_sum(&self.sums, |sums| {
-            0.5 * (sums.gamma + sums.gamma_of_others) + sums.repulsion_energy
+        blocked_sum(&self.sums, |(density, _, repulsion)| {
+            0.5 * (density.whole + density.of_others) + repulsion.energy
         })
     }
 
@@ -349,12 +275,12 @@ impl<const D: usize> Forces<D> {
             .into_par_iter()
             .map(|(sums, particle)| {
                 let mut sum = 0.0;
-                for (sums, &i) in sums.iter().zip(particle) {
+                for ((density, _, repulsion), &i) in sums.iter().zip(particle) {
                     let i = i as usize;
-                    let (stiffness, [excess, held]) = self.excess_of(i, sums.gamma);
+                    let (stiffness, [excess, held]) = self.excess_of(i, density.whole);
                     let levelling = stiffness * held * (2.0 * excess - held);
-                    let pressure = 0.5 * (sums.gamma + sums.gamma_of_others + levelling);
-                    sum += weight(i) * pressure + sums.repulsion_energy;
+                    let pressure = 0.5 * (density.whole + density.of_others + levelling);
+                    sum += weight(i) * pressure + repulsion.energy;
                 }
                 sum
             })
@@ -368,15 +294,15 @@ impl<const D: usize> Forces<D> {
         let Some(slot) = self.list.slot_of(i) else {
             return [0.0; D];
         };
-        let sums = &self.sums[slot];
+        let (density, gradient, RepulsionSum { acceleration, .. }) = &self.sums[slot];
         let Some(level) = self.levelling else {
-            return std::array::from_fn(|k| sums.repulsion[k] - weight * sums.gradient[k]);
+            return std::array::from_fn(|k| acceleration[k] - weight * gradient[k]);
         };
-        let (stiffness, [_, held]) = self.excess_of(i, sums.gamma);
+        let (stiffness, [_, held]) = self.excess_of(i, density.whole);
         let own = 1.0 + stiffness * held;
         let others = self.excess_gradient[slot];
         std::array::from_fn(|k| {
-            sums.repulsion[k] - weight * (own * sums.gradient[k] + level.stiffness * others[k])
+            acceleration[k] - weight * (own * gradient[k] + level.stiffness * others[k])
         })
     }
 
@@ -409,7 +335,7 @@ impl<const D: usize> Forces<D> {
 
     /// Work with its kernel, in scene units.
     pub(crate) fn with_kernel<W: WithKernel<D>>(&self, work: W) -> W::Output {
-        self.interaction.with(self.smoothing_length, work)
+        self.shape.with(self.smoothing_length, work)
     }
 
     /// The neighbour list of the last evaluation.
@@ -444,6 +370,41 @@ impl<const D: usize> State for Forces<D> {
         self.evaluations.load(from)?;
         self.neighbor_seconds.load(from)?;
         self.force_seconds.load(from)
+    }
+}
+
+/// The pair sums of a list. Not of [`Forces`], which may lend out its sums besides.
+fn sums_of<'a, const D: usize>(
+    shape: Shape,
+    length: f64,
+    list: &'a CellList<D>,
+    gathered: &'a Gathered,
+    level: Level,
+) -> PackingSums<'a> {
+    PackingSums {
+        shape,
+        length,
+        blocks: list.blocks(),
+        gathered,
+        level,
+    }
+}
+
+/// The first D coordinates.
+#[inline]
+fn first<const D: usize>(of: [f64; 3]) -> [f64; D] {
+    std::array::from_fn(|k| of[k])
+}
+
+impl Value for Repulsion {
+    const LEAST: usize = <[f64; 4]>::LEAST;
+
+    fn put(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.parameters().put(out)
+    }
+
+    fn take(from: &mut &[u8]) -> Result<Self, Damaged> {
+        <[f64; 4]>::take(from).map(Self::of)
     }
 }
 

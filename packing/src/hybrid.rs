@@ -12,9 +12,9 @@ use crate::packed::{Packed, StopReason};
 use crate::particles::Kind;
 use crate::predicted::{hold, predict};
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::{Seeds, fix_corners, particle_surfaces, seed};
 use crate::state::Captured;
+use sphpack_pairs::Repulsion;
 
 /// The hybrid method (001 §3.1, algorithms 1 and 2), with its constants.
 ///
@@ -60,7 +60,7 @@ impl Default for Hybrid {
             capture_over_spacing: [0.5, 0.65],
             empty_passes: 4,
             damping: 0.2,
-            repulsion: STRENGTH,
+            repulsion: Repulsion::STRENGTH,
             settling: None,
             predicted: 0.0,
             moving_over_spacing: f64::INFINITY,

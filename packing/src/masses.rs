@@ -4,7 +4,7 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
 use crate::forces::{Forces, largest};
-use crate::repulsion::Repulsion;
+use sphpack_pairs::Repulsion;
 
 /// What a correction came to.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,8 +6,8 @@ use sphpack_neighbors::Domain;
 
 use crate::forces::Forces;
 use crate::problem::Problem;
-use crate::repulsion::Repulsion;
 use crate::seeding::seed;
+use sphpack_pairs::Repulsion;
 
 /// Core-seconds of a pair where the constants of [estimates](crate::estimate) were measured. Between that machine,
 /// which others share, and another at rest lies a factor of 2.5: nothing but a measurement tells.

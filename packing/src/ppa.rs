@@ -14,9 +14,9 @@ use crate::on_surface::OnSurface;
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::{Seeds, seed};
 use crate::watch::Watch;
+use sphpack_pairs::Repulsion;
 
 /// The particle packing algorithm (002 §III).
 ///
@@ -69,7 +69,7 @@ const CROWDED: f64 = 0.5;
 /// Particles nearer than this, in ∆s, repel each other. The kernel's own force vanishes at no distance, and pairs that an
 /// acute corner presses together would become one; elsewhere nobody comes so near. No stronger than ∆t can follow.
 const PAIRED: f64 = 0.7;
-const APART: f64 = 0.5 * STRENGTH;
+const APART: f64 = 0.5 * Repulsion::STRENGTH;
 
 /// How often a particle in a corner is put back from one wall and the other.
 const CORNER_ROUNDS: usize = 20;

@@ -9,8 +9,8 @@ use crate::closest_pair::ClosestPair;
 use crate::forces::{Forces, blocked_sum, largest};
 use crate::packed::{Packed, ParticleSurface};
 use crate::particles::Kind;
-use crate::repulsion::Repulsion;
 use crate::slabs::{self, Slab};
+use sphpack_pairs::Repulsion;
 
 /// Γ and ∇Γ at every particle.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,8 +15,8 @@ use crate::observer::{Observer, Phase};
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::Repulsion;
 use crate::seeding::particle_surfaces;
+use sphpack_pairs::Repulsion;
 
 mod start;
 

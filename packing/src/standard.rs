@@ -14,8 +14,8 @@ use crate::on_surface::OnSurface;
 use crate::packed::{Packed, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::repulsion::Repulsion;
 use crate::seeding::{particle_surfaces, seed};
+use sphpack_pairs::Repulsion;
 
 /// The standard method (001 §3.2, algorithm 3), in the plane only.
 ///

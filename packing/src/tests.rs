@@ -9,12 +9,12 @@ use sphpack_neighbors::{Domain, point};
 
 use crate::forces::Forces;
 use crate::method::Method;
-use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::seed;
 use crate::{
     Hybrid, Kind, Lattice, Observer, Packed, PackingError, Particles, Problem, Progress, Silent,
     StopReason, Work,
 };
+use sphpack_pairs::Repulsion;
 
 /// A small lattice whose particles are shaken by up to `shake` ∆s; every kind occurs.
 fn shaken<const D: usize>(shake: f64, seed_value: u64) -> (Problem<D>, Particles<D>) {
@@ -45,7 +45,10 @@ fn check_energy<const D: usize>(
 ) -> Result<(), TestCaseError> {
     let (mut problem, particles) = shaken::<D>(shake, seed);
     problem.kernel = kernel;
-    let mut forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let mut forces = Forces::of(
+        &problem,
+        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+    );
     forces.evaluate(&particles);
     let moving = (seed as usize * 7) % particles.count(Kind::Free);
     let i = (0..particles.len())
@@ -90,7 +93,7 @@ proptest! {
         let keep: Vec<usize> = (0..particles.len()).filter(|&i| particles.kind[i] != Kind::Frozen).collect();
         let particles = particles.selected(&keep);
         let domain = problem.domain.with_periodic([true; 2]);
-        let mut forces = Forces::new(&domain, KernelKind::Quintic, 0.12, 0.03, Repulsion::new(0.12, STRENGTH));
+        let mut forces = Forces::new(&domain, KernelKind::Quintic, 0.12, 0.03, Repulsion::new(0.12, Repulsion::STRENGTH));
         forces.evaluate(&particles);
         let mut total = [0.0; 2];
         for i in 0..particles.len() {

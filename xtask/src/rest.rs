@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, point};
 use sphpack_packing::forces::Forces;
-use sphpack_packing::repulsion::Repulsion;
 use sphpack_packing::{Kind, Lattice, Particles};
+use sphpack_pairs::Repulsion;
 
 const HEAD: &str = "\
 | kernel | h/∆s | lattice, shaken by | Γ/Γ₀ − 1 at rest | rms | h KGS max |

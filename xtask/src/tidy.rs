@@ -4,11 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Which of our crates each crate may depend on. One direction only: see ARCHITECTURE.md.
-const GRAPH: [(&str, &[&str]); 7] = [
+const GRAPH: [(&str, &[&str]); 8] = [
     ("kernels", &[]),
     ("neighbors", &[]),
+    ("pairs", &["kernels", "neighbors"]),
     ("geometry", &["neighbors"]),
-    ("packing", &["kernels", "neighbors", "geometry"]),
+    ("packing", &["kernels", "neighbors", "pairs", "geometry"]),
     ("separation", &["geometry", "neighbors"]),
     (
         "cli",
@@ -19,6 +20,7 @@ const GRAPH: [(&str, &[&str]); 7] = [
         &[
             "kernels",
             "neighbors",
+            "pairs",
             "geometry",
             "packing",
             "separation",

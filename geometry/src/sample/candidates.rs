@@ -172,11 +172,14 @@ impl<const D: usize> Candidates<D> {
 }
 
 impl<const D: usize> Piece<D> {
-    /// Whether another side of the body is nearer below the piece than the cube is wide.
-    fn is_thin(&self, near: &impl Fn([f64; D]) -> Closest<D>) -> bool {
+    /// Whether another side of the body is nearer below the piece than the cube is wide, and far enough that cubes halved
+    /// `extra` times may tell the sides apart. (A disk 10⁻⁸ thick was halved for 7 s, to no end.)
+    fn is_thin(&self, near: &impl Fn([f64; D]) -> Closest<D>, extra: usize) -> bool {
         let down = self.height + 2.0 * self.half;
         let below = near(point::add_scaled(self.center, -down, self.normal));
-        below.distance > -1.9 * self.half
+        let thickness = 2.0 * self.half - below.distance;
+        let finest = self.half / (1_u64 << extra) as f64;
+        below.distance > -1.9 * self.half && thickness > 0.25 * finest
     }
 
     /// A point of the piece.
@@ -252,7 +255,7 @@ fn gather<const D: usize>(
         ..search
     };
     for child in &children {
-        let deeper = || sharp || search.both_sides && child.is_thin(near);
+        let deeper = || sharp || search.both_sides && child.is_thin(near, search.extra);
         if search.extra > 0 && deeper() {
             gather(near, child, 1, finer, pieces);
         } else {

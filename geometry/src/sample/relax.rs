@@ -182,7 +182,7 @@ impl<const D: usize> Pushes<D> {
         for (p, mover) in self.points.iter_mut().zip(movers) {
             *p = mover.point;
         }
-        self.list.update(&self.points, |_| true);
+        self.list.update(&self.points);
         let order = self.list.target_particles();
         self.slots.clear();
         self.slots.extend(self.list.sources().map(|(i, shift)| {
@@ -191,25 +191,27 @@ impl<const D: usize> Pushes<D> {
         }));
         let (slots, held, spacing) = (&self.slots, self.held, self.spacing);
         let window = self.window.as_ref();
-        self.list.for_each_block(&mut self.by_slot, |block, out| {
-            for (lane, out) in out.iter_mut().enumerate() {
-                let slot = block.first_slot + lane;
-                let mut sum = [0.0; D];
-                if order[slot] as usize >= held {
-                    for other in block.sources() {
-                        if let Some(push) = push(&slots[slot], &slots[other], spacing) {
-                            sum = point::add(sum, push);
-                        }
-                        for image in window.iter().flat_map(|w| mirrored(&slots[other], w)) {
-                            if let Some(push) = push(&slots[slot], &image, spacing) {
+        self.list
+            .blocks()
+            .for_each(&mut self.by_slot, |block, out| {
+                for (lane, out) in out.iter_mut().enumerate() {
+                    let slot = block.first_slot + lane;
+                    let mut sum = [0.0; D];
+                    if order[slot] as usize >= held {
+                        for other in block.sources() {
+                            if let Some(push) = push(&slots[slot], &slots[other], spacing) {
                                 sum = point::add(sum, push);
+                            }
+                            for image in window.iter().flat_map(|w| mirrored(&slots[other], w)) {
+                                if let Some(push) = push(&slots[slot], &image, spacing) {
+                                    sum = point::add(sum, push);
+                                }
                             }
                         }
                     }
+                    *out = point::reject(sum, slots[slot].1);
                 }
-                *out = point::reject(sum, slots[slot].1);
-            }
-        });
+            });
         for (&push, &i) in self.by_slot.iter().zip(order) {
             self.by_point[i as usize] = push;
         }

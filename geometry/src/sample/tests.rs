@@ -1,13 +1,15 @@
 //! Sampled surfaces: how many points, where, how even; the same for any number of threads and any size.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use proptest::prelude::*;
-use sphpack_neighbors::{KdTree, point};
+use sphpack_neighbors::{Bounds, KdTree, point};
 
-use crate::surface::{Closest, Feature, Surface};
+use crate::surface::{Closest, Feature, Features, Surface};
 use crate::{
-    Ball, Cuboid, Cylinder, Ellipsoid, LevelInset, Mesh, Outline, Placed, Similarity, Torus,
+    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, LevelInset, Mesh, Outline, Placed,
+    Similarity, Torus,
 };
 
 /// The bodies in space that the bars below are held on.
@@ -316,6 +318,91 @@ fn strewn_points_stand_for_equal_areas() {
         assert!(cow.closest(site.point).distance.abs() < 1e-12);
     }
     assert_eq!(Outline::naca("0015", 1.0).unwrap().strew(500).len(), 500);
+}
+
+/// A torus that counts how often it is asked for a closest point.
+struct Asked {
+    torus: Torus,
+    times: AtomicUsize,
+}
+
+impl Surface<3> for Asked {
+    fn closest(&self, p: [f64; 3]) -> Closest<3> {
+        self.times.fetch_add(1, Ordering::Relaxed);
+        self.torus.closest(p)
+    }
+
+    fn inside(&self, p: [f64; 3]) -> bool {
+        self.torus.inside(p)
+    }
+
+    fn measure(&self) -> f64 {
+        self.torus.measure()
+    }
+
+    fn volume(&self) -> f64 {
+        self.torus.volume()
+    }
+
+    fn bounds(&self) -> Bounds<3> {
+        self.torus.bounds()
+    }
+
+    fn features(&self) -> Features<3> {
+        self.torus.features()
+    }
+
+    fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
+        self.torus.inset(depth)
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn a_thin_tube_costs_no_more_than_a_curve(
+        radius in (-12.0..-1.0_f64).prop_map(|power| 10.0_f64.powf(power)),
+        axis in [-1.0..1.0_f64, -1.0..1.0, 0.1..1.0],
+        count in 20..2000_usize,
+    ) {
+        let torus = Torus::new([0.1, 0.2, 0.3], axis, 1.9, radius).unwrap();
+        let asked = Asked { torus, times: AtomicUsize::new(0) };
+        let sites = asked.strew(count);
+        prop_assert_eq!(sites.len(), count);
+        let times = asked.times.into_inner();
+        prop_assert!(times < 6_000 * count, "{times}");
+        // Every eighth of the ring has its part of them.
+        let mut parts = [0_usize; 8];
+        let across = Axis::new(axis);
+        for site in &sites {
+            prop_assert!(torus.closest(site.point).distance.abs() < 1e-9);
+            parts[across.eighth(point::sub(site.point, [0.1, 0.2, 0.3]))] += 1;
+        }
+        let due = count as f64 / 8.0;
+        prop_assert!(parts.iter().all(|&n| (n as f64 - due).abs() < 2.0 + 0.1 * due), "{parts:?}");
+    }
+}
+
+/// Two directions across an axis.
+struct Axis([[f64; 3]; 2]);
+
+impl Axis {
+    fn new(axis: [f64; 3]) -> Self {
+        let axis = point::scale(axis, 1.0 / point::norm(axis));
+        let u = point::reject([1.0, 0.0, 0.0], axis);
+        let u = point::scale(u, 1.0 / point::norm(u));
+        let v = std::array::from_fn(|k| {
+            let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+            axis[a] * u[b] - axis[b] * u[a]
+        });
+        Self([u, v])
+    }
+
+    fn eighth(&self, at: [f64; 3]) -> usize {
+        let angle = point::dot(at, self.0[1]).atan2(point::dot(at, self.0[0]));
+        ((angle + std::f64::consts::PI) / std::f64::consts::FRAC_PI_4).floor() as usize % 8
+    }
 }
 
 #[test]

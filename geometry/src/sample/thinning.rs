@@ -102,10 +102,10 @@ fn neighbors<const D: usize>(spots: &[Spot<D>], window: Option<&Domain<D>>) -> V
     let points: Vec<[f64; D]> = spots.iter().map(|spot| spot.0).collect();
     let reach = REACH * greatest(spots.iter().map(|spot| spot.2));
     let mut list = CellList::new(&around(&points, window), reach);
-    list.update(&points, |_| true);
+    list.update(&points);
     let particle: Vec<u32> = list.sources().map(|(i, _)| i as u32).collect();
     let mut by_slot: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
-    list.for_each_block(&mut by_slot, |block, out| {
+    list.blocks().for_each(&mut by_slot, |block, out| {
         for (lane, found) in out.iter_mut().enumerate() {
             let i = particle[block.first_slot + lane] as usize;
             let crowded = |j: u32| {

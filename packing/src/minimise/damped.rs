@@ -33,7 +33,11 @@ impl<const D: usize> Minimiser<D> for Damped<D> {
         Step::Taken
     }
 
-    fn reset(&mut self) {}
+    fn reset(&mut self) {
+        // Which particles move may have changed: a velocity would land on another one.
+        self.velocity.clear();
+        self.fastest = 0.0;
+    }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
         self.velocity.save(out)?;

@@ -15,8 +15,8 @@ use crate::on_surface::OnSurface;
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::problem::Body;
-use crate::repulsion::Repulsion;
 use crate::state::{Damaged, State, Value};
+use sphpack_pairs::Repulsion;
 
 /// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R, and that of a [`Levelling`], over the places of the mobile
 /// particles, and its forces −∇E; boundary particles stay on their surfaces, fixed and frozen ones where they are.

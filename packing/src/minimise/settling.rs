@@ -7,8 +7,8 @@ use crate::course::{Begin, Course};
 use crate::forces::Levelling;
 use crate::packed::StopReason;
 use crate::problem::PackingError;
-use crate::repulsion::{REACH_OVER_SPACING, Repulsion, STRENGTH};
 use crate::state::{Damaged, State};
+use sphpack_pairs::Repulsion;
 
 /// How particles are left.
 ///
@@ -66,7 +66,7 @@ impl Default for Settling {
             residual_tolerance: None,
             max_evaluations: 20_000,
             early_evaluations: 60,
-            repulsion: [STRENGTH, 0.001],
+            repulsion: [Repulsion::STRENGTH, 0.001],
             levelling: Self::levelling_at(1.2),
             leeway: 0.0,
         }
@@ -114,7 +114,9 @@ impl Settling {
 
     fn last_repulsion(&self, spacing: f64) -> Repulsion {
         match self.finish {
-            Finish::Even => Repulsion::with_reach(spacing, self.repulsion[1], REACH_OVER_SPACING),
+            Finish::Even => {
+                Repulsion::with_reach(spacing, self.repulsion[1], Repulsion::REACH_OVER_SPACING)
+            }
             Finish::Consistent => {
                 Repulsion::with_reach(spacing, self.repulsion[0], CONSISTENT_REACH)
             }

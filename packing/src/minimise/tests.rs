@@ -9,9 +9,9 @@ use sphpack_neighbors::{Domain, point};
 use super::*;
 use crate::forces::{Forces, Levelling};
 use crate::packed::ParticleSurface;
-use crate::repulsion::{Repulsion, STRENGTH};
 use crate::seeding::seed;
 use crate::{Kind, Particles, Problem};
+use sphpack_pairs::Repulsion;
 
 fn random(state: &mut u64) -> f64 {
     *state = state
@@ -81,7 +81,10 @@ fn with_landscape<const D: usize, R>(
     work: impl FnOnce(&mut Landscape<'_, D>) -> R,
 ) -> R {
     let (problem, mut particles, surfaces) = shaken::<D>(shake, state);
-    let mut forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let mut forces = Forces::of(
+        &problem,
+        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+    );
     // Every other time.
     forces.levelling = Levelling::new(10.0 * (state % 2) as f64, problem.perfect_gamma());
     let added = state
@@ -178,7 +181,10 @@ fn the_energy_goes_around_a_periodic_box() {
     for p in &mut particles.position {
         *p = p.map(|x| x + 0.01 * random(&mut state));
     }
-    let forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let forces = Forces::of(
+        &problem,
+        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+    );
     let mut landscape = Landscape::new(&mut particles, &[], forces, problem.spacing, 1.0);
     let (mut place, force) = (Vec::new(), landscape.force().to_vec());
     landscape.places(&mut place);
@@ -291,7 +297,10 @@ fn a_perfect_lattice_stays() {
     let problem = Problem::new(Domain::new([0.0; 2], [1.0; 2]), 0.1);
     let mut particles = seed(&problem).expect("a sound problem").particles;
     let before = particles.position.clone();
-    let mut forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let mut forces = Forces::of(
+        &problem,
+        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+    );
     forces.levelling = Levelling::new(10.0, problem.perfect_gamma());
     let mut landscape = Landscape::new(&mut particles, &[], forces, problem.spacing, 1.0);
     assert!(landscape.residual() < 1e-10);
@@ -301,4 +310,38 @@ fn a_perfect_lattice_stays() {
     for (a, &b) in landscape.particles().position.iter().zip(&before) {
         assert!(point::distance(*a, b) < 1e-8);
     }
+}
+
+/// Where surface particles stop moving, none of their velocities stays behind with others: whoever begins anew starts along
+/// its own force.
+#[test]
+fn velocities_stay_with_their_particles() {
+    for kind in [MinimiserKind::Damped, MinimiserKind::Fire] {
+        with_landscape::<2, _>(0.2, 4, |landscape| {
+            let mut minimiser = kind.build::<2>();
+            for _ in 0..20 {
+                minimiser.step(landscape);
+            }
+            landscape.hold_surface();
+            minimiser.reset();
+            let (mut before, mut after) = (Vec::new(), Vec::new());
+            landscape.places(&mut before);
+            landscape.move_to(&before, 0.0, &before);
+            let force = landscape.force().to_vec();
+            minimiser.step(landscape);
+            landscape.places(&mut after);
+            for ((&from, &to), &force) in before.iter().zip(&after).zip(&force) {
+                let step = point::sub(to, from);
+                let across = point::norm(point::reject(step, unit_along(force)));
+                assert!(
+                    across < 1e-9 + 1e-6 * point::norm(step),
+                    "{kind:?}: {across}"
+                );
+            }
+        });
+    }
+}
+
+fn unit_along<const D: usize>(force: [f64; D]) -> [f64; D] {
+    point::scale(force, 1.0 / point::norm(force).max(1e-300))
 }

@@ -6,7 +6,7 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Bounds, Domain};
 use sphpack_packing::Lattice;
 use sphpack_packing::forces::Forces;
-use sphpack_packing::repulsion::{Repulsion, STRENGTH};
+use sphpack_pairs::Repulsion;
 
 use super::machine::{bandwidth, peak, quickest};
 
@@ -88,7 +88,7 @@ fn evaluation<const D: usize>(edge: f64) -> Result<Evaluation, String> {
     let volumes = vec![1.0; particles];
     let mut seconds = [0.0; 2];
     for (threads, seconds) in (1..).zip(&mut seconds) {
-        let repulsion = Repulsion::new(1.0, STRENGTH);
+        let repulsion = Repulsion::new(1.0, Repulsion::STRENGTH);
         let mut forces = Forces::new(&domain, kernel, h, 0.3, repulsion);
         forces.evaluate_plain(&positions, &volumes, |_| true);
         *seconds = quickest(threads, || {

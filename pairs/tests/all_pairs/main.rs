@@ -3,10 +3,13 @@
 use fearless_simd::Level;
 use proptest::prelude::*;
 use sphpack_kernels::{Kernel, KernelKind, WithKernel};
-use sphpack_neighbors::{CellList, Domain, Slot, point};
+use sphpack_neighbors::{CellList, Domain, point};
+use sphpack_pairs::{
+    DensitySum, Gathered, PackingSum, PackingSums, Repulsion, RepulsionSum, Shape,
+};
 
-use super::{GradientLoop, PairLoop, Shells, Sums, unit};
-use crate::repulsion::{Repulsion, STRENGTH};
+mod each;
+mod repulsion;
 
 /// Point sets in the unit box: random, shaken lattice, lattice, coincident.
 fn point_sets<const D: usize>() -> impl Strategy<Value = Vec<[f64; D]>> {
@@ -60,9 +63,10 @@ impl<const D: usize> Plain<'_, D> {
         i % 4 != 3
     }
 
-    fn sums<K: Kernel<D>>(&self, kernel: K, i: usize) -> Sums<D> {
+    fn sums<K: Kernel<D>>(&self, kernel: K, i: usize) -> PackingSum {
         let size = self.domain.bounds.size();
-        let mut sums = Sums::ZERO;
+        let (mut density, mut gradient) = (DensitySum::default(), [0.0; D]);
+        let (mut repulsion, mut push) = (RepulsionSum::default(), [0.0; D]);
         for (j, &q) in self.positions.iter().enumerate() {
             for code in 0..5_i32.pow(D as u32) {
                 let step: [i32; D] = std::array::from_fn(|k| code / 5_i32.pow(k as u32) % 5 - 2);
@@ -78,26 +82,28 @@ impl<const D: usize> Plain<'_, D> {
                 // A target's image stands for the target.
                 let is_other = !Self::is_target(j);
                 let value = self.weights[j] * kernel.value(r);
-                sums.gamma += value;
+                density.whole += value;
                 if is_other {
-                    sums.gamma_of_others += value;
+                    density.of_others += value;
                 }
                 if r > 0.0 {
                     let slope = self.weights[j] * kernel.slope(r) / r;
-                    sums.gradient = point::add_scaled(sums.gradient, slope, d);
-                    sums.repulsion =
-                        point::add_scaled(sums.repulsion, self.repulsion.force(r) / r, d);
+                    gradient = point::add_scaled(gradient, slope, d);
+                    push = point::add_scaled(push, self.repulsion.force(r) / r, d);
                     let share = if is_other { 1.0 } else { 0.5 };
-                    sums.repulsion_energy += share * self.repulsion.potential(r);
+                    repulsion.energy += share * self.repulsion.potential(r);
                 }
             }
         }
-        sums
+        repulsion.acceleration[..D].copy_from_slice(&push);
+        let mut padded = [0.0; 3];
+        padded[..D].copy_from_slice(&gradient);
+        (density, padded, repulsion)
     }
 }
 
 impl<const D: usize> WithKernel<D> for &Plain<'_, D> {
-    type Output = Vec<Sums<D>>;
+    type Output = Vec<PackingSum>;
 
     fn call<K: Kernel<D>>(self, kernel: K) -> Self::Output {
         (0..self.positions.len())
@@ -123,7 +129,7 @@ fn check<const D: usize>(
         .map(|i| 0.01 * (1.0 + 0.3 * (i as f64).cos()) * scene_unit.powi(D as i32))
         .collect();
     check_with(&domain, &positions, &weights, kind, h, Repulsion::none())?;
-    let repulsion = Repulsion::new(0.8 * h, STRENGTH);
+    let repulsion = Repulsion::new(0.8 * h, Repulsion::STRENGTH);
     check_with(&domain, &positions, &weights, kind, h, repulsion)
 }
 
@@ -151,75 +157,61 @@ fn check_with<const D: usize>(
         ..plain
     };
     let of_targets = kind.with(h, &field);
-    let reach = repulsion.reach();
+    let shape = Shape::Smoothing(kind);
     let mut list = CellList::new(domain, kind.support_over_h() * h)
         .with_skin(0.2 * h)
-        .with_shells(kind.with::<D, _>(h, Shells { reach }));
-    list.update(positions, Plain::<D>::is_target);
-    let mut slots: Vec<Slot> = Vec::new();
-    let unit = unit(h);
-    list.gather(positions, weights, unit, &mut slots);
-    let mut reweighted = slots.clone();
-    list.weigh(&others, &mut reweighted);
+        .with_shells(shape.shells::<D>(h, repulsion.reach()));
+    list.update_some(positions, Plain::<D>::is_target);
+    let mut gathered = Gathered::default();
+    gathered.gather(&list, positions, weights, h);
+    let mut reweighted = gathered.clone();
+    reweighted.weigh(&list, &others);
     for level in levels() {
-        let mut gradients = vec![[0.0; D]; list.targets()];
-        let second = GradientLoop {
-            list: &list,
-            slots: &reweighted,
-            unit,
+        let pairs = PackingSums {
+            shape,
+            length: h,
+            blocks: list.blocks(),
+            gathered: &gathered,
             level,
-            out: &mut gradients,
         };
-        kind.with(h * unit, second);
-        let mut out = vec![Sums::ZERO; list.targets()];
-        let pairs = PairLoop {
-            list: &list,
-            slots: &slots,
-            unit,
-            level,
-            repulsion,
-            out: &mut out,
+        let mut out = vec![PackingSum::default(); list.targets()];
+        pairs.sum::<D>(repulsion, &mut out);
+        let mut gradients = vec![[0.0; 3]; list.targets()];
+        let second = PackingSums {
+            gathered: &reweighted,
+            ..pairs
         };
-        kind.with(h * unit, pairs);
+        second.gradient::<D>(&mut gradients);
         let strongest = repulsion.force(0.0) * positions.len() as f64;
         let largest = repulsion.potential(0.0) * positions.len() as f64;
         for (i, expected) in expected.iter().enumerate() {
             let Some(slot) = list.slot_of(i) else {
                 continue;
             };
-            let ours = out[slot];
-            for k in 0..D {
-                let off = (gradients[slot][k] - of_targets[i].gradient[k]).abs();
-                prop_assert!(
-                    off <= 1e-13 * expected.gamma / h,
-                    "second pass, {level:?}: {off}"
-                );
-            }
+            let (density, gradient, repelled) = out[slot];
+            let whole = expected.0.whole;
             let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-13 * scale;
-            let says = format!("{level:?}, {kind}, particle {i}: {ours:?}, not {expected:?}");
-            prop_assert!(near(ours.gamma, expected.gamma, expected.gamma), "{says}");
-            prop_assert!(
-                near(
-                    ours.gamma_of_others,
-                    expected.gamma_of_others,
-                    expected.gamma
-                ),
-                "{says}"
+            let all_near =
+                |a: [f64; 3], b: [f64; 3], scale: f64| (0..3).all(|k| near(a[k], b[k], scale));
+            let says = format!(
+                "{level:?}, {kind}, particle {i}: {:?}, not {expected:?}",
+                out[slot]
             );
             prop_assert!(
-                near(ours.repulsion_energy, expected.repulsion_energy, largest),
+                all_near(gradients[slot], of_targets[i].1, whole / h),
+                "second pass, {says}"
+            );
+            prop_assert!(near(density.whole, whole, whole), "{says}");
+            prop_assert!(
+                near(density.of_others, expected.0.of_others, whole),
                 "{says}"
             );
-            for k in 0..D {
-                prop_assert!(
-                    near(ours.gradient[k], expected.gradient[k], expected.gamma / h),
-                    "{says}"
-                );
-                prop_assert!(
-                    near(ours.repulsion[k], expected.repulsion[k], strongest),
-                    "{says}"
-                );
-            }
+            prop_assert!(near(repelled.energy, expected.2.energy, largest), "{says}");
+            prop_assert!(all_near(gradient, expected.1, whole / h), "{says}");
+            prop_assert!(
+                all_near(repelled.acceleration, expected.2.acceleration, strongest),
+                "{says}"
+            );
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! A group of candidates against eight targets, as one number of the kernels; and roots without a division.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Mul, Neg, Sub};
 
 use fearless_simd::{Level, Simd, f32x16, f64x8, prelude::*};
 use sphpack_kernels::Number;
@@ -9,7 +9,7 @@ use sphpack_neighbors::GROUP;
 /// √x and 1/√x, to the last digits but one: a rough 1/√x and one step of third order. A root and a division of doubles
 /// take longer than all the rest of a pair.
 #[inline(always)]
-pub(super) fn roots<S: Simd>(x: Several<S>) -> (Several<S>, Several<S>) {
+pub(crate) fn roots<S: Simd>(x: Several<S>) -> (Several<S>, Several<S>) {
     let mut y = x;
     for j in 0..GROUP {
         y.0[j] = rough_inverse_root(x.0[j]);
@@ -52,8 +52,11 @@ fearless_simd::kernel!(
 );
 
 /// A group's lanes side by side, for the kernels.
-#[derive(Clone, Copy)]
-pub(super) struct Several<S: Simd>(pub(super) [f64x8<S>; GROUP]);
+#[derive(Debug, Clone, Copy)]
+pub struct Several<S: Simd>(
+    /// Vector by vector.
+    pub [f64x8<S>; GROUP],
+);
 
 impl<S: Simd> Add for Several<S> {
     type Output = Self;
@@ -83,6 +86,17 @@ impl<S: Simd> Mul for Several<S> {
     fn mul(mut self, other: Self) -> Self {
         for j in 0..GROUP {
             self.0[j] *= other.0[j];
+        }
+        self
+    }
+}
+
+impl<S: Simd> Neg for Several<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(mut self) -> Self {
+        for j in 0..GROUP {
+            self.0[j] = -self.0[j];
         }
         self
     }

@@ -1,0 +1,20 @@
+#![doc = include_str!("../README.md")]
+
+mod fields;
+mod gathered;
+mod group;
+mod lanes;
+mod packing_sums;
+mod term;
+mod terms;
+mod walk;
+
+pub use fearless_simd;
+pub use fields::{Fields, Pairs};
+pub use gathered::{Gathered, unit};
+pub use group::{Group, Scale, Targets, Values};
+pub use lanes::Several;
+pub use packing_sums::{PackingSum, PackingSums, PackingTerms, Shape};
+pub use term::Term;
+pub use terms::{Density, DensitySum, Gradient, Repulsion, RepulsionSum, TargetGradient};
+pub use walk::{shells, walk};

@@ -1,0 +1,141 @@
+//! The sums that settling takes, compiled with this crate for every kernel.
+
+use fearless_simd::Level;
+use sphpack_kernels::{CohesionPotential, Kernel, KernelKind, WithKernel};
+use sphpack_neighbors::{Blocks, SHELLS};
+
+use crate::gathered::Gathered;
+use crate::term::Term;
+use crate::terms::{Density, Gradient, Repulsion, TargetGradient};
+use crate::walk::{shells, walk};
+
+/// What acts between pairs, chosen at run time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// A smoothing kernel.
+    Smoothing(KernelKind),
+    /// The [cohesion](CohesionPotential), whose length is its support radius.
+    Cohesion,
+}
+
+impl Shape {
+    /// Runs `work` with the kernel of this shape and length (scene units).
+    pub fn with<const D: usize, W: WithKernel<D>>(self, length: f64, work: W) -> W::Output {
+        match self {
+            Self::Smoothing(kernel) => kernel.with(length, work),
+            Self::Cohesion => work.call(CohesionPotential::<D>::new(length)),
+        }
+    }
+
+    /// [`shells`] of this shape in the plane or in space.
+    pub fn shells<const D: usize>(self, length: f64, short: f64) -> [f64; SHELLS - 1] {
+        self.with::<D, _>(length, Shells { short })
+    }
+}
+
+struct Shells {
+    short: f64,
+}
+
+impl<const D: usize> WithKernel<D> for Shells {
+    type Output = [f64; SHELLS - 1];
+
+    fn call<K: Kernel<D>>(self, kernel: K) -> Self::Output {
+        shells(kernel, self.short)
+    }
+}
+
+/// Density, kernel gradient sum and repulsion, and the gradient of a field: the terms of settling.
+#[derive(Debug, Clone, Copy)]
+pub struct PackingSums<'a> {
+    /// The kernel.
+    pub shape: Shape,
+    /// Its length (scene units), where sources have no own.
+    pub length: f64,
+    /// The list's blocks; its shells are [`Shape::shells`].
+    pub blocks: &'a Blocks,
+    /// Sources.
+    pub gathered: &'a Gathered,
+    /// The instructions to use.
+    pub level: Level,
+}
+
+/// The terms of [`PackingSums::sum`].
+pub type PackingTerms = (Density, Gradient, Repulsion);
+
+/// What [`PackingSums::sum`] finds for a target.
+pub type PackingSum = <PackingTerms as Term>::Sum;
+
+impl PackingSums<'_> {
+    /// Density, kernel gradient sum and repulsion of every target, `D` of 2 or 3. One entry of `out` per target slot. No
+    /// allocation, parallel.
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are targets.
+    pub fn sum<const D: usize>(self, repulsion: Repulsion, out: &mut [PackingSum]) {
+        const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
+        let terms = (Density, Gradient, repulsion);
+        // Not generic, so that the loops, long code for every kernel and vector width, are compiled here, once.
+        if D == 2 {
+            sum_in_plane(self, &terms, out);
+        } else {
+            sum_in_space(self, &terms, out);
+        }
+    }
+
+    /// Σ_j w_j ∇_iW_ij of every target over sources that are targets. Otherwise as [`PackingSums::sum`].
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are targets.
+    pub fn gradient<const D: usize>(self, out: &mut [[f64; 3]]) {
+        const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
+        if D == 2 {
+            gradient_in_plane(self, out);
+        } else {
+            gradient_in_space(self, out);
+        }
+    }
+}
+
+fn sum_in_plane(of: PackingSums<'_>, terms: &PackingTerms, out: &mut [PackingSum]) {
+    let work = Work { of, terms, out };
+    of.shape.with::<2, _>(of.length, work);
+}
+
+fn sum_in_space(of: PackingSums<'_>, terms: &PackingTerms, out: &mut [PackingSum]) {
+    let work = Work { of, terms, out };
+    of.shape.with::<3, _>(of.length, work);
+}
+
+fn gradient_in_plane(of: PackingSums<'_>, out: &mut [[f64; 3]]) {
+    let terms = &TargetGradient;
+    of.shape.with::<2, _>(of.length, Work { of, terms, out });
+}
+
+fn gradient_in_space(of: PackingSums<'_>, out: &mut [[f64; 3]]) {
+    let terms = &TargetGradient;
+    of.shape.with::<3, _>(of.length, Work { of, terms, out });
+}
+
+/// Work for whichever kernel.
+struct Work<'a, T: Term> {
+    of: PackingSums<'a>,
+    terms: &'a T,
+    out: &'a mut [T::Sum],
+}
+
+impl<T: Term, const D: usize> WithKernel<D> for Work<'_, T> {
+    type Output = ();
+
+    fn call<K: Kernel<D>>(self, kernel: K) {
+        let of = self.of;
+        walk(
+            of.level,
+            kernel,
+            self.terms,
+            of.blocks,
+            of.gathered,
+            self.out,
+        );
+    }
+}
