@@ -373,7 +373,7 @@ mod tests {
                 .skip(1)
                 .filter_map(|rest| rest.lines().next());
             let all = |line: &str| task.known.iter().all(|flag| line.contains(flag));
-            assert!(lines.any(|line| all(line)), "{name} {form:?}");
+            assert!(lines.any(all), "{name} {form:?}");
         }
     }
 }
