@@ -182,7 +182,7 @@ impl Audit {
     fn pairs<const D: usize>(&mut self, solution: &Solution<D>) {
         let quality = &solution.quality;
         if quality.crowded < CROWDED || quality.closest_pair_over_spacing.is_nan() {
-            let at = std::array::from_fn(|k| quality.crowded_at.get(k).copied().unwrap_or(0.0));
+            let at = point::of_slice(&quality.crowded_at);
             let message = format!(
                 "two particles are only {:.3} of their size apart",
                 quality.crowded

@@ -164,8 +164,7 @@ impl Cloud {
         kernel: KernelKind,
         h_over_spacing: f64,
     ) -> Result<CloudQuality, Error> {
-        let cut = |p: &[f64; 3]| -> [f64; D] { std::array::from_fn(|k| p[k]) };
-        let positions: Vec<[f64; D]> = self.position.iter().map(cut).collect();
+        let positions: Vec<[f64; D]> = (self.position.iter()).map(|p| point::of_slice(p)).collect();
         let bounds = Bounds::of(&positions);
         let h = h_over_spacing * spacing;
         let support = kernel.support_over_h() * h;
@@ -198,7 +197,8 @@ impl Cloud {
             measured
                 .iter()
                 .filter(|&&i| self.kind[i] == Kind::Boundary)
-                .map(|&i| h * point::norm(point::reject(fields.gradient[i], cut(&normals[i]))))
+                .map(|&i| (fields.gradient[i], point::of_slice(&normals[i])))
+                .map(|(gradient, normal)| h * point::norm(point::reject(gradient, normal)))
         });
         let lattice = Lattice::auto(D, kernel, h_over_spacing).gamma(kernel, h_over_spacing);
         Ok(CloudQuality {

@@ -8,6 +8,7 @@ use sphpack_geometry::{
     Ball, BodyFormat, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed,
     Similarity, Sketch, Soup, Surface, Torus,
 };
+use sphpack_neighbors::point;
 use sphpack_packing::Method;
 
 use crate::body_file;
@@ -80,13 +81,8 @@ pub(crate) trait Dimension<const D: usize>: Cuttable<D> {
     fn method(scene: &Scene) -> Box<dyn Method<D>>;
 }
 
-/// The first `D` entries; callers have checked that there are as many.
-pub(crate) fn array<const D: usize>(values: &[f64]) -> [f64; D] {
-    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
-}
-
 fn shift<const D: usize>(body: &BodySpec) -> [f64; D] {
-    array(body.translate.as_deref().unwrap_or(&[]))
+    point::of_slice(body.translate.as_deref().unwrap_or(&[]))
 }
 
 fn wrong_dimension(shape: &Shape, dimension: usize) -> GeometryError {
@@ -116,7 +112,7 @@ impl Dimension<2> for Space<2> {
         let mut repairs = Vec::new();
         let outline = match shape {
             Shape::Circle { center, radius } => {
-                let ball = Ball::new(place.point(array(center)), radius * place.scale())?;
+                let ball = Ball::new(place.point(point::of_slice(center)), radius * place.scale())?;
                 let (middle, radius) = (ball.center(), ball.radius());
                 return Ok(Built::new(
                     Arc::new(ball),
@@ -129,7 +125,8 @@ impl Dimension<2> for Space<2> {
                 ));
             }
             Shape::Ellipse { center, semi_axes } => {
-                let (c, a): ([f64; 2], [f64; 2]) = (array(center), array(semi_axes));
+                let (c, a): ([f64; 2], [f64; 2]) =
+                    (point::of_slice(center), point::of_slice(semi_axes));
                 return Ok(Built::new(
                     Arc::new(Placed::new(Arc::new(Ellipsoid::new(c, a)?), *place)),
                     vec![ring(|angle| {
@@ -138,7 +135,7 @@ impl Dimension<2> for Space<2> {
                 ));
             }
             Shape::Box { min, max } => {
-                let (a, b): ([f64; 2], [f64; 2]) = (array(min), array(max));
+                let (a, b): ([f64; 2], [f64; 2]) = (point::of_slice(min), point::of_slice(max));
                 return Ok(Built::new(
                     Arc::new(Placed::new(Arc::new(Cuboid::new(a, b)?), *place)),
                     vec![
@@ -148,15 +145,18 @@ impl Dimension<2> for Space<2> {
                     ],
                 ));
             }
-            Shape::Polygon { points } => {
-                Outline::polygon(&points.iter().map(|p| array(p)).collect::<Vec<_>>())?
-            }
+            Shape::Polygon { points } => Outline::polygon(
+                &points
+                    .iter()
+                    .map(|p| point::of_slice(p))
+                    .collect::<Vec<_>>(),
+            )?,
             Shape::Starfish {
                 center,
                 radius,
                 amplitude,
                 arms,
-            } => Outline::starfish(array(center), *radius, *amplitude, *arms)?,
+            } => Outline::starfish(point::of_slice(center), *radius, *amplitude, *arms)?,
             Shape::Zigzag {
                 width,
                 height,
@@ -190,7 +190,7 @@ impl Dimension<3> for Space<3> {
 
     fn place(body: &BodySpec) -> Result<Similarity<3>, GeometryError> {
         let (axis, degrees) = match &body.rotate {
-            Some(rotation) => (array(&rotation.axis), rotation.degrees),
+            Some(rotation) => (point::of_slice(&rotation.axis), rotation.degrees),
             None => ([0.0, 0.0, 1.0], 0.0),
         };
         Similarity::<3>::new(body.scale, axis, degrees, shift(body))
@@ -203,20 +203,26 @@ impl Dimension<3> for Space<3> {
     ) -> Result<Built<3>, GeometryError> {
         let surface: Arc<dyn Surface<3>> = match shape {
             Shape::Sphere { center, radius } => Arc::new(Ball::new(
-                place.point(array(center)),
+                place.point(point::of_slice(center)),
                 radius * place.scale(),
             )?),
             Shape::Ellipsoid { center, semi_axes } => Arc::new(Placed::new(
-                Arc::new(Ellipsoid::<3>::new(array(center), array(semi_axes))?),
+                Arc::new(Ellipsoid::<3>::new(
+                    point::of_slice(center),
+                    point::of_slice(semi_axes),
+                )?),
                 *place,
             )),
             Shape::Box { min, max } => Arc::new(Placed::new(
-                Arc::new(Cuboid::<3>::new(array(min), array(max))?),
+                Arc::new(Cuboid::<3>::new(
+                    point::of_slice(min),
+                    point::of_slice(max),
+                )?),
                 *place,
             )),
             Shape::Cylinder { start, end, radius } => Arc::new(Cylinder::new(
-                place.point(array(start)),
-                place.point(array(end)),
+                place.point(point::of_slice(start)),
+                place.point(point::of_slice(end)),
                 radius * place.scale(),
             )?),
             Shape::Torus {
@@ -225,8 +231,8 @@ impl Dimension<3> for Space<3> {
                 major,
                 minor,
             } => Arc::new(Torus::new(
-                place.point(array(center)),
-                place.direction(array(axis)),
+                place.point(point::of_slice(center)),
+                place.direction(point::of_slice(axis)),
                 major * place.scale(),
                 minor * place.scale(),
             )?),

@@ -3,12 +3,12 @@
 use std::time::Instant;
 
 use sphpack_geometry::GeometryError;
-use sphpack_neighbors::{Bounds, Domain, words};
+use sphpack_neighbors::{Bounds, Domain, point, words};
 use sphpack_packing::{Band, Body, Estimate, FrozenLayout, Kind, PackingError, Problem};
 
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
-use crate::dimension::{Built, Dimension, Space, array};
+use crate::dimension::{Built, Dimension, Space};
 use crate::scene::{BandWidth, Fault, Frozen, Method, Role, Scene, Surroundings};
 use crate::{beyond, methods, overlap, precedence, roles, units};
 
@@ -373,7 +373,7 @@ fn refuse_giants<const D: usize>(scene: &Scene, all: &[Built<D>]) -> Result<(), 
     let (Some(min), Some(max)) = (&scene.domain.min, &scene.domain.max) else {
         return Ok(());
     };
-    let domain = Bounds::new(array(min), array::<D>(max)).diagonal();
+    let domain = Bounds::new(point::of_slice(min), point::of_slice::<D>(max)).diagonal();
     for (body, built) in scene.body.iter().zip(all) {
         let times = built.surface.bounds().diagonal() / domain;
         if times > GIANT {
@@ -420,9 +420,8 @@ pub(crate) fn judged<const D: usize>(problem: &Problem<D>, scene: &Scene) -> Pro
 
 fn domain<const D: usize>(scene: &Scene, bodies: &[Built<D>]) -> Domain<D> {
     let spec = &scene.domain;
-    let corner = |values: &[f64]| std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0));
     let bounds = match (&spec.min, &spec.max) {
-        (Some(min), Some(max)) => Bounds::new(corner(min), corner(max)),
+        (Some(min), Some(max)) => Bounds::new(point::of_slice(min), point::of_slice(max)),
         _ => bodies
             .iter()
             .fold(Bounds::EMPTY, |all, body| all.union(body.surface.bounds()))

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use sphpack_geometry::{
     Continued, Cylinder, GeometryError, LevelSet, Mesh, Outline, Surface, cut_on_grid,
 };
-use sphpack_neighbors::Domain;
+use sphpack_neighbors::{Domain, point};
 
 use crate::Error;
-use crate::dimension::{Built, Dimension, Space, array};
+use crate::dimension::{Built, Dimension, Space};
 use crate::overlap;
 use crate::scene::{BodySpec, Role, Scene, Shape};
 
@@ -94,8 +94,10 @@ impl Cuttable<2> for Space<2> {
 
     fn operand(body: &BodySpec, built: &Built<2>) -> Result<Outline, GeometryError> {
         let ellipse = match &body.shape {
-            Shape::Circle { center, radius } => (array(center), [*radius; 2]),
-            Shape::Ellipse { center, semi_axes } => (array(center), array(semi_axes)),
+            Shape::Circle { center, radius } => (point::of_slice(center), [*radius; 2]),
+            Shape::Ellipse { center, semi_axes } => {
+                (point::of_slice(center), point::of_slice(semi_axes))
+            }
             // Their loops are all there is of them.
             _ => return Outline::new(built.loops.clone()),
         };
@@ -186,12 +188,9 @@ impl Cuttable<3> for Space<3> {
         let Shape::Box { min, max } = &body.shape else {
             return Ok(Solid::Smooth(Arc::clone(&built.surface)));
         };
-        let (place, ends) = (Self::place(body)?, [min, max]);
-        let corner = |bits: usize| {
-            place.point(std::array::from_fn(|k| {
-                ends[bits >> k & 1].get(k).copied().unwrap_or(0.0)
-            }))
-        };
+        let place = Self::place(body)?;
+        let ends: [[f64; 3]; 2] = [min, max].map(|end| point::of_slice(end));
+        let corner = |bits: usize| place.point(std::array::from_fn(|k| ends[bits >> k & 1][k]));
         let mesh = hexahedron(corner)?;
         Ok(Solid::Mesh(Arc::new(mesh)))
     }
@@ -236,7 +235,7 @@ impl Cuttable<3> for Space<3> {
     ) -> Result<Option<Continued<3>>, GeometryError> {
         if let (Shape::Cylinder { start, end, radius }, None) = (&body.shape, &built.mesh) {
             let place = Self::place(body)?;
-            let [start, end] = [start, end].map(|p| place.point(array(p)));
+            let [start, end] = [start, end].map(|p| place.point(point::of_slice(p)));
             let rod = Cylinder::new(start, end, radius * place.scale())?;
             return rod.mesh(ROUND_WITHIN * spacing)?.continued(domain);
         }

@@ -150,11 +150,6 @@ where
     })
 }
 
-/// A point with z = 0 where it has none.
-pub(crate) fn padded<const D: usize>(p: [f64; D]) -> [f64; 3] {
-    std::array::from_fn(|k| p.get(k).copied().unwrap_or(0.0))
-}
-
 fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
     let Solution {
         packed,
@@ -174,7 +169,9 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
     let at_rest: Vec<AtRest> = (scene.fluid.hydrostatic.iter())
         .flat_map(|hydrostatic| {
             all.clone().map(|i| match labels.side[i] {
-                Side::Fluid => hydrostatic.at(padded(particles.position[i]), rest_density(i)),
+                Side::Fluid => {
+                    hydrostatic.at(point::of_slice(&particles.position[i]), rest_density(i))
+                }
                 Side::Solid => AtRest {
                     pressure: 0.0,
                     density: rest_density(i),
@@ -191,14 +188,17 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
         let on = particles.body[i].filter(|_| particles.kind[i].is_on_surface())?;
         let surface = &packed.surfaces.get(usize::from(on))?.surface;
         let hit = surface.closest(particles.position[i]);
-        Some((particles.id[i], padded(hit.normal)))
+        Some((particles.id[i], point::of_slice(&hit.normal)))
     };
     Table {
         dimension: D,
         stop_reason: packed.stop_reason.name().to_owned(),
         bodies: packed.bodies.clone(),
         id: particles.id.clone(),
-        position: all.clone().map(|i| padded(particles.position[i])).collect(),
+        position: all
+            .clone()
+            .map(|i| point::of_slice(&particles.position[i]))
+            .collect(),
         kind: particles.kind.clone(),
         side: labels.side.clone(),
         body: labels.body.clone(),

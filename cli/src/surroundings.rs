@@ -1,10 +1,10 @@
 //! The lattice around a packed domain, out to a larger box (001 fig. 3).
 
-use sphpack_neighbors::Bounds;
+use sphpack_neighbors::{Bounds, point};
 use sphpack_packing::{Kind, Packed};
 use sphpack_separation::Side;
 
-use crate::run::{Outcome, Packing, padded};
+use crate::run::{Outcome, Packing};
 use crate::scene::{Scene, Surroundings};
 use crate::table::Table;
 
@@ -27,8 +27,7 @@ pub(crate) fn surrounded(
 }
 
 fn add<const D: usize>(rows: &mut Table, packed: &Packed<D>, scene: &Scene, around: &Surroundings) {
-    let corner = |values: &[f64]| std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0));
-    let outer = Bounds::new(corner(&around.min), corner(&around.max));
+    let outer = Bounds::new(point::of_slice(&around.min), point::of_slice(&around.max));
     let lattice = packed.frozen_lattice;
     let (kernel, h_over_spacing) = scene.judge();
     let gamma = lattice.gamma(kernel, h_over_spacing * packed.spacing);
@@ -42,14 +41,14 @@ fn add<const D: usize>(rows: &mut Table, packed: &Packed<D>, scene: &Scene, arou
         .map_or(0, |last| last + 1);
     lattice.visit_beyond(outer, |p| {
         rows.id.push(id);
-        rows.position.push(padded(p));
+        rows.position.push(point::of_slice(&p));
         rows.kind.push(Kind::Frozen);
         rows.side.push(Side::Fluid);
         rows.body.push(None);
         rows.volume.push(volume);
         let mut density = scene.fluid.density;
         if let Some(hydrostatic) = &scene.fluid.hydrostatic {
-            let rest = hydrostatic.at(padded(p), density);
+            let rest = hydrostatic.at(point::of_slice(&p), density);
             density = rest.density;
             rows.pressure.push(rest.pressure);
             rows.density.push(density);

@@ -5,7 +5,6 @@ use std::ops::RangeInclusive;
 use sphpack_neighbors::{Bounds, point};
 use sphpack_packing::{Body, PackingError, Problem};
 
-use crate::dimension::array;
 use crate::scene::{BodySpec, Scene};
 
 /// Spacings across a body that somebody may well have meant.
@@ -32,7 +31,7 @@ pub(crate) fn advice<const D: usize>(
         }
         PackingError::OutsideDomain { body, .. } => {
             let (body, built) = named(body)?;
-            let shift: [f64; D] = array(body.translate.as_deref().unwrap_or(&[]));
+            let shift: [f64; D] = point::of_slice(body.translate.as_deref().unwrap_or(&[]));
             let Bounds { min, max } = built.surface.bounds();
             let [min, max] = [min, max]
                 .map(|corner| point::add_scaled(shift, SMALLER, point::sub(corner, shift)));

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sphpack_neighbors::{Bounds, Domain, point};
+use sphpack_neighbors::{Bounds, Domain, Odometer, point};
 
 use crate::GeometryError;
 use crate::surface::{Closest, Features, Surface};
@@ -38,24 +38,14 @@ impl<const D: usize> Repeated<D> {
     /// `surface` and its images across the periodic sides of `domain`.
     pub fn new(surface: Arc<dyn Surface<D>>, domain: &Domain<D>) -> Self {
         let size = domain.bounds.size();
-        let steps = |k: usize| if domain.periodic[k] { 1_i8 } else { 0 };
+        let steps = domain.periodic.map(i64::from);
         let own = domain.whole_periods(surface.bounds().center());
         let mut shifts = vec![own];
-        let mut step: [i8; D] = std::array::from_fn(|k| -steps(k));
-        loop {
-            if step != [0; D] {
-                shifts.push(std::array::from_fn(|k| {
-                    own[k] + f64::from(step[k]) * size[k]
-                }));
-            }
-            let Some(axis) = (0..D).rev().find(|&k| step[k] < steps(k)) else {
-                break;
-            };
-            step[axis] += 1;
-            for k in axis + 1..D {
-                step[k] = -steps(k);
-            }
-        }
+        let around = Odometer::new(steps.map(|n| -n), steps.map(|n| n + 1));
+        shifts.extend(
+            (around.filter(|step| *step != [0; D]))
+                .map(|step| std::array::from_fn(|k| own[k] + step[k] as f64 * size[k])),
+        );
         let (mut bounds, sides) = (surface.bounds(), domain.bounds);
         for k in (0..D).filter(|&k| domain.periodic[k]) {
             if bounds.min[k] < sides.min[k] || bounds.max[k] > sides.max[k] {

@@ -1,6 +1,7 @@
 //! Properties that every smoothing kernel has, over random smoothing lengths.
 
 use proptest::prelude::*;
+use sphpack_neighbors::gauss;
 
 use crate::{
     Cohesion, CohesionPotential, Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4,
@@ -16,18 +17,11 @@ fn unit_sphere(dimension: usize) -> f64 {
 /// ∫ f(r) dr over [0, end] by composite Gauss–Legendre (5 points), exact for polynomials of degree 9 on each panel.
 /// `panels` is chosen so that the kernels' joins fall on panel ends.
 fn integral(end: f64, panels: usize, f: impl Fn(f64) -> f64) -> f64 {
-    let nodes: [(f64, f64); 5] = [
-        (0.0, 128.0 / 225.0),
-        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-        (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
-    ];
     let half = 0.5 * end / panels as f64;
     (0..panels)
         .flat_map(|panel| {
             let middle = half * (2 * panel + 1) as f64;
-            nodes.map(|(x, weight)| weight * half * f(middle + half * x))
+            gauss::FIVE.map(|(x, weight)| weight * half * f(middle + half * x))
         })
         .sum()
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::Bounds;
+use crate::{Bounds, Odometer};
 
 /// Points sorted into the cells of a uniform grid. The cells of a row along the last axis lie one after the other, so
 /// a box query reads a few long runs.
@@ -118,15 +118,21 @@ impl<const D: usize> Cells<D> {
         // A little more, for what rounding does to the cells' faces.
         let reach = reach * (1.0 + 1e-9);
         let near = bounds.grown(reach);
-        let low: [usize; D] = std::array::from_fn(|k| self.coordinate(k, near.min[k]));
-        let high: [usize; D] = std::array::from_fn(|k| self.coordinate(k, near.max[k]));
         let last = D - 1;
-        let mut index = low;
-        loop {
+        let low: [i64; D] = std::array::from_fn(|k| self.coordinate(k, near.min[k]) as i64);
+        // Along the last axis runs go on: one place of it stands for the row.
+        let end = std::array::from_fn(|k| {
+            if k == last {
+                low[k] + 1
+            } else {
+                self.coordinate(k, near.max[k]) as i64 + 1
+            }
+        });
+        for index in Odometer::new(low, end) {
             // The row's distance from the box, across the last axis.
             let (mut row, mut gap_squared) = (0, 0.0);
             for k in 0..last {
-                row = row * self.shape[k] + index[k];
+                row = row * self.shape[k] + index[k] as usize;
                 let face = self.origin[k] + index[k] as f64 * self.size;
                 let gap = (face - bounds.max[k])
                     .max(bounds.min[k] - (face + self.size))
@@ -140,18 +146,6 @@ impl<const D: usize> Cells<D> {
                 let from = row + self.coordinate(last, bounds.min[last] - along);
                 let to = row + self.coordinate(last, bounds.max[last] + along);
                 f(self.start[from] as usize..self.start[to + 1] as usize);
-            }
-            let mut axis = last;
-            loop {
-                if axis == 0 {
-                    return;
-                }
-                axis -= 1;
-                index[axis] += 1;
-                if index[axis] <= high[axis] {
-                    break;
-                }
-                index[axis] = low[axis];
             }
         }
     }

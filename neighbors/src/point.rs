@@ -1,5 +1,17 @@
 //! Arithmetic on points and vectors, which are plain arrays `[f64; D]`.
 
+/// The first `D` of `values`, zero where there are fewer: from what a file holds, or from a plane to space.
+///
+/// ```
+/// use sphpack_neighbors::point;
+/// assert_eq!(point::of_slice::<3>(&[1.0, 2.0]), [1.0, 2.0, 0.0]);
+/// assert_eq!(point::of_slice::<2>(&[1.0, 2.0, 3.0]), [1.0, 2.0]);
+/// ```
+#[inline]
+pub fn of_slice<const D: usize>(values: &[f64]) -> [f64; D] {
+    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+}
+
 /// `a + b`.
 #[inline(always)]
 pub fn add<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {

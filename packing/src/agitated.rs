@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use rayon::prelude::*;
-use sphpack_neighbors::{KdTree, point};
+use sphpack_neighbors::{KdTree, place_of, point};
 
 use crate::course::{Begin, Course};
 use crate::forces::{Forces, largest};
@@ -289,11 +289,9 @@ impl Agitated {
             std::array::from_fn(|k| ((bounds.size()[k] / step).floor() as usize).max(1));
         let mut chosen = Vec::new();
         for number in 0..cells.iter().product::<usize>() {
-            let mut rest = number;
+            let cell = place_of(number, cells);
             let middle: [f64; D] = std::array::from_fn(|k| {
-                let cell = rest % cells[k];
-                rest /= cells[k];
-                bounds.min[k] + (cell as f64 + 0.5) * bounds.size()[k] / cells[k] as f64
+                bounds.min[k] + (cell[k] as f64 + 0.5) * bounds.size()[k] / cells[k] as f64
             });
             let Some(found) = tree.nearest(middle) else {
                 continue;

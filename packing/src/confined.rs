@@ -10,6 +10,7 @@ use sphpack_neighbors::point;
 use crate::confinement::Confinement;
 use crate::forces::{Forces, blocked_sum, largest};
 use crate::particles::{Kind, Particles};
+use crate::put_back::put_back;
 use crate::state::{Damaged, State, load_as_many};
 use crate::watch::Watch;
 
@@ -108,16 +109,15 @@ impl<'a, const D: usize> Confined<'a, D> {
         let back = self.watch.near(&self.particles, 0.0, &self.bound);
         let (bound, body) = (&self.bound, &self.particles.body);
         let close = 1e-9 * self.forces.smoothing_length();
-        let onto = |i: usize, mut hit: Closest<D>| {
-            let mut place = hit.point;
-            for _ in 0..CORNER_ROUNDS {
-                hit = bound(place, body[i].unwrap_or(0));
+        let onto = |i: usize, hit: Closest<D>| {
+            put_back(hit.point, CORNER_ROUNDS, |place| {
+                let hit = bound(place, body[i].unwrap_or(0));
                 if hit.distance < close {
-                    break;
+                    None
+                } else {
+                    Some(hit.point)
                 }
-                place = hit.point;
-            }
-            place
+            })
         };
         for (i, hit) in back {
             self.particles.position[i] = onto(i, hit);

@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 use sphpack_geometry::Surface;
 use sphpack_kernels::{Kernel, KernelKind, WithKernel};
-use sphpack_neighbors::{Bounds, Domain, point};
+use sphpack_neighbors::{Bounds, Domain, Odometer, gauss, point};
 
 mod facets;
 #[cfg(test)]
@@ -162,8 +162,8 @@ impl<const D: usize> Confinement<D> {
                 });
                 begin += block.len();
             }
-            for n in 0..3_i64.pow(D as u32) {
-                let around = std::array::from_fn(|k| middle[k] + n / 3_i64.pow(k as u32) % 3 - 1);
+            for step in Odometer::new([-1; D], [2; D]) {
+                let around = std::array::from_fn(|k| middle[k] + step[k]);
                 near.entry(around).or_default().push(first..blocks.len());
             }
         }
@@ -319,18 +319,11 @@ impl<const D: usize> WithKernel<D> for Gamma<'_, D> {
 
 /// ∫₀^r W s^(D−1) ds, by Gauss's rule of five points on four parts: twelve digits for polynomials of degree nine.
 fn mass_within<const D: usize, K: Kernel<D>>(kernel: &K, r: f64) -> f64 {
-    const NODES: [(f64, f64); 5] = [
-        (0.0, 0.568_888_888_888_888_9),
-        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-        (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
-    ];
     let end = r.min(kernel.support());
     let half = end / 8.0;
     let mut sum = 0.0;
     for part in 0..4 {
-        for (node, weight) in NODES {
+        for (node, weight) in gauss::FIVE {
             let s = half * (f64::from(2 * part + 1) + node);
             sum += weight * half * kernel.value(s) * s.powi(D as i32 - 1);
         }

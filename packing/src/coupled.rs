@@ -6,6 +6,7 @@ use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
 
 use crate::course::Course;
+use crate::fluid_side::around_body;
 use crate::forces::Forces;
 use crate::motion::Motion;
 use crate::observer::{Observer, Phase};
@@ -275,17 +276,7 @@ fn outer_surface<const D: usize>(problem: &Problem<D>, p: [f64; D]) -> Closest<D
         .map(|body| body.surface.closest(p))
         .min_by(|a, b| a.distance.total_cmp(&b.distance))
         .expect("there is a body");
-    let away = point::unit(point::sub(p, hit.point));
-    let normal = match away {
-        Some(away) if hit.distance > 0.0 => away,
-        _ => hit.normal,
-    };
-    Closest {
-        point: point::add_scaled(hit.point, half, normal),
-        normal: point::scale(normal, -1.0),
-        distance: half - hit.distance,
-        ..hit
-    }
+    around_body(p, hit, half)
 }
 
 /// The particles of the inside and of the outside. What lies between a body's two surfaces is moved along the normal by
@@ -296,22 +287,21 @@ fn divide<const D: usize>(
     lattice: &Particles<D>,
 ) -> [Particles<D>; 2] {
     let (mut inner, mut outer) = (Particles::default(), Particles::default());
+    let across = |p: [f64; D], beyond: f64, normal: [f64; D]| {
+        let moved = point::add_scaled(p, -problem.spacing, normal);
+        problem.domain.clamp(if beyond > 0.0 { moved } else { p })
+    };
     for i in 0..lattice.len() {
         let (p, kind, volume) = (lattice.position[i], lattice.kind[i], lattice.volume[i]);
         let holder = (problem.bodies.iter().zip(0_u16..))
             .find(|(body, _)| kind == Kind::Free && body.surface.inside(p));
         if let Some((body, number)) = holder {
             let held = surfaces[usize::from(number)].surface.closest(p);
-            let normal = body.surface.closest(p).normal;
-            let moved = point::add_scaled(p, -problem.spacing, normal);
-            let p = if held.distance > 0.0 { moved } else { p };
-            let p = problem.domain.clamp(p);
+            let p = across(p, held.distance, body.surface.closest(p).normal);
             inner.push(p, Kind::Free, volume, Some(number));
         } else if kind == Kind::Free && !problem.bodies.is_empty() {
             let hit = outer_surface(problem, p);
-            let moved = point::add_scaled(p, -problem.spacing, hit.normal);
-            let p = if hit.distance > 0.0 { moved } else { p };
-            let p = problem.domain.clamp(p);
+            let p = across(p, hit.distance, hit.normal);
             outer.push(p, Kind::Free, volume, None);
         } else {
             outer.push(p, kind, volume, None);

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sphpack_geometry::Closest;
-use sphpack_neighbors::{Bounds, point};
+use sphpack_neighbors::{Bounds, place_of, point};
 
 use crate::problem::Body;
 
@@ -68,12 +68,8 @@ impl Depths {
         let edge: [f64; D] = std::array::from_fn(|k| size[k] / cubes[k] as f64);
         let radius = 0.5 * point::norm(edge);
         let center = |cube: usize| -> [f64; D] {
-            let mut rest = cube;
-            std::array::from_fn(|k| {
-                let i = rest % cubes[k];
-                rest /= cubes[k];
-                bounds.min[k] + edge[k] * (i as f64 + 0.5)
-            })
+            let place = place_of(cube, cubes);
+            std::array::from_fn(|k| bounds.min[k] + edge[k] * (place[k] as f64 + 0.5))
         };
         let narrow = NARROW_OVER_SPACING * spacing;
         let all: Vec<u16> = (0..bodies.len() as u16).collect();

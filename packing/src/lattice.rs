@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use sphpack_kernels::{Kernel, KernelKind, WithKernel};
-use sphpack_neighbors::{Bounds, Domain, point};
+use sphpack_neighbors::{Bounds, Domain, Odometer, point};
 
 /// A regular arrangement of particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -153,7 +153,7 @@ impl Lattice {
         let unit = self.cell();
         Filling {
             lattice: self,
-            bounds: Bounds::new([0.0; D], std::array::from_fn(|k| unit[k])),
+            bounds: Bounds::new([0.0; D], point::of_slice(&unit)),
             cells: [1; D],
             phase: [0.0; D],
         }
@@ -317,27 +317,11 @@ impl<const D: usize> Filling<D> {
         let sites: Vec<[f64; D]> = (self.lattice.sites().iter())
             .map(|site| std::array::from_fn(|k| (site[k] + self.phase[k]).rem_euclid(1.0)))
             .collect();
-        let mut index = from;
-        if (0..D).any(|k| from[k] >= to[k]) {
-            return;
-        }
-        loop {
+        for index in Odometer::new(from, to) {
             for site in &sites {
                 f(std::array::from_fn(|k| {
                     self.bounds.min[k] + cell[k] * (index[k] as f64 + site[k])
                 }));
-            }
-            let mut axis = D;
-            loop {
-                if axis == 0 {
-                    return;
-                }
-                axis -= 1;
-                index[axis] += 1;
-                if index[axis] < to[axis] {
-                    break;
-                }
-                index[axis] = from[axis];
             }
         }
     }

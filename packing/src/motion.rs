@@ -10,6 +10,12 @@ use crate::on_surface::OnSurface;
 use crate::particles::{Kind, Particles};
 use crate::state::{Damaged, State, load_as_many};
 
+/// The time step of 001 eq. 25 (Negi and Ramachandran) for a background pressure `pressure`: no farther than a tenth of `h` by what
+/// the pressure does from rest, nor by damping `zeta` at the speed of the `fastest`.
+pub(crate) fn time_step(h: f64, zeta: f64, pressure: f64, fastest: f64) -> f64 {
+    (0.1 * h / pressure.sqrt()).min((0.1 * h / (zeta * fastest)).sqrt())
+}
+
 /// Velocities, and how they change.
 #[derive(Debug, Clone)]
 pub(crate) struct Motion<const D: usize> {
@@ -30,9 +36,9 @@ impl<const D: usize> Motion<D> {
         }
     }
 
-    /// 001 eq. 25 for a background pressure `pressure`, with the last step's velocities.
+    /// [`time_step`] with the last step's velocities.
     pub(crate) fn time_step(&self, h: f64, zeta: f64, pressure: f64) -> f64 {
-        (0.1 * h / pressure.sqrt()).min((0.1 * h / (zeta * self.fastest)).sqrt())
+        time_step(h, zeta, pressure, self.fastest)
     }
 
     /// 001 eqs. 17 and 19, semi-implicit Euler with damping −`zeta` u; along the surface for boundary particles

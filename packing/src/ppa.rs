@@ -3,10 +3,11 @@
 use std::time::Instant;
 
 use rayon::prelude::*;
-use sphpack_geometry::{Closest, Feature, GeometryError, Surface};
+use sphpack_geometry::{Closest, GeometryError, Surface};
 use sphpack_neighbors::{KdTree, point};
 
 use crate::course::Course;
+use crate::fluid_side::{around_body, tightest, within_body};
 use crate::forces::Forces;
 use crate::motion::Motion;
 use crate::observer::{Observer, Phase};
@@ -14,6 +15,7 @@ use crate::on_surface::OnSurface;
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
+use crate::put_back::{off_bound, put_back};
 use crate::seeding::{Seeds, seed};
 use crate::watch::Watch;
 use sphpack_pairs::Repulsion;
@@ -140,7 +142,7 @@ impl Ppa {
             });
             // "Particles are not allowed to escape from the boundaries."
             for (i, _) in watch.near(&particles, floor, &nearest) {
-                particles.position[i] = self.put_back(problem, particles.position[i]);
+                particles.position[i] = self.off_walls(problem, particles.position[i]);
                 motion.stop(i);
             }
             if iteration % LOOK_EVERY == 0 || iteration == self.max_iterations {
@@ -168,50 +170,34 @@ impl Ppa {
 
     /// The nearest place of any wall, its normal out of the fluid, its distance negative within the fluid.
     fn wall<const D: usize>(&self, problem: &Problem<D>, p: [f64; D]) -> Closest<D> {
-        (problem.bodies.iter().enumerate())
-            .map(|(number, body)| {
-                let hit = body.surface.closest(p);
-                if self.holds_fluid(number) {
-                    return hit;
-                }
-                Closest {
-                    normal: point::scale(hit.normal, -1.0),
-                    distance: -hit.distance,
-                    ..hit
-                }
-            })
-            .max_by(|a, b| a.distance.total_cmp(&b.distance))
-            .unwrap_or(Closest {
-                point: p,
-                normal: [0.0; D],
-                distance: f64::NEG_INFINITY,
-                feature: Feature::Smooth,
-            })
+        let walls = (problem.bodies.iter().enumerate()).map(|(number, body)| {
+            let hit = body.surface.closest(p);
+            if self.holds_fluid(number) {
+                within_body(p, hit)
+            } else {
+                around_body(p, hit, 0.0)
+            }
+        });
+        tightest(p, walls)
     }
 
     /// The place as far off the walls as the floor asks, in a corner first from one wall, then from the other.
-    fn put_back<const D: usize>(&self, problem: &Problem<D>, mut p: [f64; D]) -> [f64; D] {
-        for _ in 0..CORNER_ROUNDS {
-            let wall = self.wall(problem, p);
-            let lacking = wall.distance + FLOOR * problem.spacing;
-            if lacking <= 0.0 {
-                break;
-            }
-            p = point::add_scaled(p, lacking, inward(p, &wall));
-        }
-        problem.domain.clamp(p)
+    fn off_walls<const D: usize>(&self, problem: &Problem<D>, p: [f64; D]) -> [f64; D] {
+        let floor = FLOOR * problem.spacing;
+        let step = |p| off_bound(p, &self.wall(problem, p), floor);
+        problem.domain.clamp(put_back(p, CORNER_ROUNDS, step))
     }
 
     /// The sites, those too near to the walls put back. Of those that meet then, in an acute corner, the first is kept:
     /// nothing would drive the others apart.
-    fn off_the_walls<const D: usize>(
+    fn apart_from_walls<const D: usize>(
         &self,
         problem: &Problem<D>,
         sites: &[[f64; D]],
     ) -> Vec<[f64; D]> {
         let at: Vec<[f64; D]> = (sites.par_iter())
             .with_min_len(256)
-            .map(|&p| self.put_back(problem, p))
+            .map(|&p| self.off_walls(problem, p))
             .collect();
         let Ok(tree) = KdTree::new(&at) else {
             return at;
@@ -249,7 +235,7 @@ impl Ppa {
                 .map(|i| lattice.position[i])
         };
         let fluid: Vec<[f64; D]> = sites(Kind::Free).filter(|&p| is_fluid(p)).collect();
-        for p in self.off_the_walls(problem, &fluid) {
+        for p in self.apart_from_walls(problem, &fluid) {
             particles.push(p, Kind::Free, 0.0, None);
         }
         let volume = self.fluid_volume(problem) / particles.len().max(1) as f64;
@@ -326,16 +312,6 @@ impl Ppa {
             }
         }
         Ok(points)
-    }
-}
-
-/// The way from the nearest place of a wall into the fluid. Straight from there to where the fluid is, or a wall's edge
-/// that points into the fluid, where normals jump, would push along itself and keep the fluid in motion.
-fn inward<const D: usize>(p: [f64; D], wall: &Closest<D>) -> [f64; D] {
-    let away = point::unit(point::sub(p, wall.point));
-    match away {
-        Some(away) if wall.distance < 0.0 => away,
-        _ => point::scale(wall.normal, -1.0),
     }
 }
 

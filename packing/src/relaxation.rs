@@ -2,13 +2,14 @@
 
 use std::time::Instant;
 
-use sphpack_geometry::{Closest, Feature, Surface};
+use sphpack_geometry::{Closest, Surface};
 use sphpack_neighbors::point;
 
 use crate::complex::see;
 use crate::confined::{Bound, Confined};
 use crate::confinement::Confinement;
 use crate::course::Course;
+use crate::fluid_side::{around_body, tightest};
 use crate::forces::Forces;
 use crate::lattice::Filling;
 use crate::observer::{Observer, Phase};
@@ -265,30 +266,19 @@ fn fluid_bound<const D: usize>(
 ) -> Closest<D> {
     let wrapped = problem.domain.wrap(p);
     let back = point::sub(p, wrapped);
-    (problem.bodies.iter())
-        .map(|body| {
-            let floor = problem.spacing
-                * match interface {
-                    Interface::Confinement => (1.0 - body.inset_over_spacing).max(0.0),
-                    Interface::Particles => 1.0 - body.inner_share(),
-                };
-            let hit = body.surface.closest(wrapped);
-            let away = point::unit(point::sub(wrapped, hit.point));
-            let normal = away.filter(|_| hit.distance > 0.0).unwrap_or(hit.normal);
-            Closest {
-                point: point::add(back, point::add_scaled(hit.point, floor, normal)),
-                normal: point::scale(normal, -1.0),
-                distance: floor - hit.distance,
-                ..hit
-            }
-        })
-        .max_by(|a, b| a.distance.total_cmp(&b.distance))
-        .unwrap_or(Closest {
-            point: p,
-            normal: [0.0; D],
-            distance: f64::NEG_INFINITY,
-            feature: Feature::Smooth,
-        })
+    let bounds = (problem.bodies.iter()).map(|body| {
+        let floor = problem.spacing
+            * match interface {
+                Interface::Confinement => (1.0 - body.inset_over_spacing).max(0.0),
+                Interface::Particles => 1.0 - body.inner_share(),
+            };
+        let bound = around_body(wrapped, body.surface.closest(wrapped), floor);
+        Closest {
+            point: point::add(back, bound.point),
+            ..bound
+        }
+    });
+    tightest(p, bounds)
 }
 
 /// All particles, the bodies' first, and which of them their surface holds. `own` is how many of the fluid's

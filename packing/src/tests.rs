@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use proptest::prelude::*;
 use sphpack_geometry::{Ball, Cuboid, Outline};
 use sphpack_kernels::KernelKind;
+use sphpack_neighbors::random::Congruential;
 use sphpack_neighbors::{Domain, point};
 
 use crate::forces::Forces;
@@ -21,18 +22,14 @@ fn shaken<const D: usize>(shake: f64, seed_value: u64) -> (Problem<D>, Particles
     let domain = Domain::new([0.0; D], [1.0; D]);
     let problem = Problem::new(domain, if D == 2 { 0.12 } else { 0.2 });
     let mut particles = seed(&problem).expect("a sound problem").particles;
-    let mut state = seed_value;
+    let mut random = Congruential::new(seed_value);
     for i in 0..particles.len() {
         if particles.kind[i] == Kind::Frozen {
             continue;
         }
         particles.kind[i] = [Kind::Free, Kind::Boundary, Kind::Fixed][i % 3];
         for k in 0..D {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            let random = (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
-            particles.position[i][k] += 2.0 * shake * problem.spacing * random;
+            particles.position[i][k] += 2.0 * shake * problem.spacing * (random.unit() - 0.5);
         }
     }
     (problem, particles)

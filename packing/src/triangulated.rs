@@ -6,6 +6,7 @@ use spade::{
     AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation,
 };
 use sphpack_geometry::{Surface, polygons};
+use sphpack_neighbors::point;
 
 use crate::course::Course;
 use crate::observer::{Observer, Phase};
@@ -119,9 +120,7 @@ fn cut<const D: usize>(
     (triangulation.inner_faces())
         .map(|face| {
             let center = face.center();
-            let center = [center.x, center.y];
-            let p = std::array::from_fn(|k| center.get(k).copied().unwrap_or(0.0));
-            (p, face.area())
+            (point::of_slice(&[center.x, center.y]), face.area())
         })
         .filter(|&(p, _)| body.inside(p))
         .collect()

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use sphpack_geometry::{Ball, Cuboid, Ellipsoid, Outline, Surface, Torus};
+use sphpack_neighbors::random::Congruential;
 
 use crate::{SeparationError, Side, separate, separate_by_inside_tests};
 
@@ -39,17 +40,12 @@ fn bodies_3d() -> Vec<Arc<dyn Surface<3>>> {
 /// A shaken grid over [−1, 1]^D.
 fn grid<const D: usize>(spacing: f64, shake: f64, seed: u64) -> Vec<[f64; D]> {
     let n = (2.0 / spacing) as usize;
-    let mut state = seed;
-    let mut random = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-    };
+    let mut random = Congruential::new(seed);
     (0..n.pow(D as u32))
         .map(|i| {
             std::array::from_fn(|k| {
-                -1.0 + spacing * ((i / n.pow(k as u32) % n) as f64 + 0.5 + shake * random())
+                -1.0 + spacing
+                    * ((i / n.pow(k as u32) % n) as f64 + 0.5 + shake * (random.unit() - 0.5))
             })
         })
         .collect()

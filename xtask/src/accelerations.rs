@@ -7,7 +7,8 @@ use sphpack::{Options, Packing, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_packing::{Kind, Silent};
 
-use crate::reproduce::{Settings, load};
+use crate::selection::Selection;
+use crate::shipped::load;
 
 pub(crate) const ABOUT: &str = "The hybrid method as
 printed (ε = 10⁻⁴), and with what 001 §3.1.9 proposes, \"up to a factor of two\" and not tried there: 0.9 N_s or all of
@@ -80,13 +81,13 @@ fn options() -> Vec<(&'static str, HybridOptions, f64)> {
 }
 
 /// Both tables.
-pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
+pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
     let mut text = HEAD.to_owned();
     print!("\n{HEAD}");
     for (name, spacing) in SCENES {
         let mut plain = None;
         for (words, options, tolerance) in options() {
-            let Some(row) = row(name, spacing, options, tolerance, settings)? else {
+            let Some(row) = row(name, spacing, options, tolerance, selection)? else {
                 continue;
             };
             let most = *plain.get_or_insert([row.iterations as f64, row.work()]);
@@ -112,7 +113,7 @@ pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
                 capture: [0.5, late],
                 ..HybridOptions::default()
             };
-            let Some(row) = row(name, spacing, options, 1e-4, settings)? else {
+            let Some(row) = row(name, spacing, options, 1e-4, selection)? else {
                 continue;
             };
             let line = format!(
@@ -159,12 +160,12 @@ fn row(
     spacing: f64,
     options: HybridOptions,
     tolerance: f64,
-    settings: &Settings,
+    selection: &Selection,
 ) -> Result<Option<Row>, String> {
-    if !settings.wants(name, name == "cylinder") {
+    if !selection.wants(name, name == "cylinder") {
         return Ok(None);
     }
-    let Some(mut scene) = load(name, settings)? else {
+    let Some(mut scene) = load(name, selection)? else {
         return Ok(None);
     };
     scene.spacing = spacing;

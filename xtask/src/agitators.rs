@@ -10,8 +10,9 @@ use sphpack_neighbors::Domain;
 use sphpack_packing::{Agitated, Agitators, Lattice, Method, Packed, Problem, Silent};
 
 use crate::chart::{Axis, Chart, Scale, Series};
-use crate::reproduce::{Settings, load};
-use crate::root;
+use crate::selection::Selection;
+use crate::shipped::load;
+use crate::workspace::root;
 
 pub(crate) const ABOUT: &str = "
 ![Error of the density after an agitator in a lattice has become free](agitators.svg)
@@ -53,12 +54,12 @@ const SCENES: [(&str, f64); 6] = [
     ("naca0015", 0.02),
 ];
 
-/// Both tables; the chart where settings say so.
-pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
+/// Both tables; the chart where the page is written.
+pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
     let mut text = LATTICES.to_owned();
     print!("\n{LATTICES}");
     let mut curves = Vec::new();
-    if settings.only.is_none() {
+    if selection.only.is_none() {
         for lattice in [Lattice::Hexagonal, Lattice::Square] {
             let domain = Domain::new([0.0; 2], [1.0; 2]).with_periodic([true; 2]);
             stirred(Problem::new(domain, 0.05), lattice, &mut text, &mut curves)?;
@@ -73,7 +74,7 @@ pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
             )?;
         }
     }
-    if settings.write {
+    if selection.write {
         let chart = Chart {
             title: "A lattice after an agitator: 20 × 20 particles",
             axes: [
@@ -94,7 +95,7 @@ pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
     let _ = write!(text, "{ABOUT_PACKINGS}\n{PACKINGS}");
     print!("\n{PACKINGS}");
     for (name, spacing) in SCENES {
-        if !settings.wants(name, name == "cylinder") {
+        if !selection.wants(name, name == "cylinder") {
             continue;
         }
         for (words, agitators) in [
@@ -102,7 +103,7 @@ pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
             ("resting", AgitatorsAre::Resting),
             ("none", AgitatorsAre::None),
         ] {
-            let Some(mut scene) = load(name, settings)? else {
+            let Some(mut scene) = load(name, selection)? else {
                 continue;
             };
             scene.spacing = spacing;

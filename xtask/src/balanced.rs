@@ -9,8 +9,9 @@ use sphpack_packing::{Kind, Silent};
 
 use crate::balanced_rows::{ROWS, Row};
 use crate::dial;
-use crate::reproduce::{Settings, load};
-use crate::root;
+use crate::selection::Selection;
+use crate::shipped::load;
+use crate::workspace::root;
 
 const HEAD: &str = "\
 | scene | ∆s | finish | evaluations (bar) | L∞ (bar) | prototype | total variation | 99 % within | worst sits | \
@@ -19,15 +20,15 @@ residual of free max, rms | on the surface / N_s | spacing CV | closest pair / �
 ";
 
 /// Packs every row; fails where one misses a bar.
-pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+pub(crate) fn run(selection: &Selection) -> Result<(), String> {
     let mut table = HEAD.to_owned();
     print!("{HEAD}");
     let mut missed = Vec::new();
     for row in ROWS
         .iter()
-        .filter(|row| settings.wants(row.scene, row.quick))
+        .filter(|row| selection.wants(row.scene, row.quick))
     {
-        let line = match run_row(row, settings)? {
+        let line = match run_row(row, selection)? {
             None => format!("{} | | | | no data | | | | | | | | | |\n", head(row)),
             Some(outcome) => {
                 let figures = Figures::of(&outcome);
@@ -46,8 +47,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         print!("{line}");
         table.push_str(&line);
     }
-    let dial = dial::table(settings)?;
-    if settings.write {
+    let dial = dial::table(selection)?;
+    if selection.write {
         let path = root().join("docs/balanced.md");
         let text = format!(
             "# The balanced method and its bars\n\n\
@@ -61,7 +62,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
              hundredth of ∆s make the density even; what they leave is a residual of the background pressure. An\n\
              evaluation takes two passes over the pairs then, one without. 10 is the default (less where\n\
              h/∆s is below 1.2), 200 where masses are corrected; a consistent finish has none.\n\n{dial}",
-            if settings.quick {
+            if selection.quick {
                 " (the quick rows only)"
             } else {
                 ""
@@ -76,8 +77,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     }
 }
 
-fn run_row(row: &Row, settings: &Settings) -> Result<Option<Outcome>, String> {
-    let Some(mut scene) = load(row.scene, settings)? else {
+fn run_row(row: &Row, selection: &Selection) -> Result<Option<Outcome>, String> {
+    let Some(mut scene) = load(row.scene, selection)? else {
         return Ok(None);
     };
     scene.spacing = row.spacing;

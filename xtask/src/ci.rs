@@ -4,7 +4,9 @@ use std::process::Command;
 use std::time::Instant;
 
 use crate::scene_fuzz::{self, faults, files, kills};
-use crate::{balanced, bodies, reproduce, root, tidy};
+use crate::selection::Selection;
+use crate::workspace::root;
+use crate::{balanced, bodies, reproduce, tidy};
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
 const RANDOM_SCENES: usize = 50;
@@ -40,9 +42,9 @@ pub(crate) fn run() -> Result<(), String> {
     deny()?;
     // The README's test command.
     cargo(&["test", "--workspace"], &[])?;
-    let quick = reproduce::Settings {
+    let quick = Selection {
         quick: true,
-        ..reproduce::Settings::default()
+        ..Selection::default()
     };
     reproduce::run(&quick)?;
     balanced::run(&quick)?;

@@ -9,11 +9,13 @@ use sphpack::{Options, Report, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_packing::Silent;
 
+use crate::arguments::Arguments;
 use crate::chart::{Axis, Chart, Scale, Series};
 use crate::figures;
-use crate::reproduce::{Settings, load};
-use crate::root;
 use crate::sections::Section;
+use crate::selection::Selection;
+use crate::shipped::load;
+use crate::workspace::root;
 
 const HEAD: &str = "\
 | scene | ∆s | method | L∞ | total variation | residual of free max, rms | body's volume off | on the surface / N_s | \
@@ -34,16 +36,54 @@ const SCENES: [(&str, f64, usize, bool); 6] = [
 /// Iterations in space, where a slow method would take an hour.
 const PATIENCE_IN_SPACE: usize = 2000;
 
+/// What to run.
+#[derive(Debug)]
+pub(crate) struct Settings {
+    selection: Selection,
+    /// The one method to print the rows of.
+    method: Option<String>,
+    /// One section alone.
+    section: Option<Section>,
+}
+
+impl Settings {
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &[
+        "--quick",
+        "--only SCENE",
+        "--method NAME",
+        "--data DIR",
+        "--write",
+        "--accelerations",
+        "--agitators",
+        "--interface",
+        "--gaps",
+    ];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        let settings = Self {
+            selection: Selection::of(arguments)?,
+            method: arguments.text("--method"),
+            section: (Section::ALL.into_iter()).find(|section| arguments.has(section.flag())),
+        };
+        if settings.selection.write && settings.method.is_some() {
+            return Err("--write needs every row: leave --method out".to_owned());
+        }
+        Ok(settings)
+    }
+}
+
 /// Packs every scene by every method that works in its dimension.
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+    let selection = &settings.selection;
     if let Some(section) = settings.section {
-        return section.run(settings);
+        return section.run(selection);
     }
     let mut table = HEAD.to_owned();
     print!("{HEAD}");
     let mut clouds: Vec<Series> = Vec::new();
     for (name, spacing, dimension, quick) in SCENES {
-        if !settings.wants(name, quick) {
+        if !selection.wants(name, quick) {
             continue;
         }
         for info in METHODS
@@ -53,7 +93,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             .filter(|info| info.method != Method::Ppa)
             .filter(|info| (settings.method.as_ref()).is_none_or(|only| only == info.name))
         {
-            let Some(mut scene) = load(name, settings)? else {
+            let Some(mut scene) = load(name, selection)? else {
                 continue;
             };
             scene.spacing = spacing;
@@ -86,13 +126,13 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     if settings.method.is_some() {
         return Ok(());
     }
-    let variation = figures::variation(settings)?;
-    let tanks = figures::tanks(settings)?;
+    let variation = figures::variation(selection)?;
+    let tanks = figures::tanks(selection)?;
     let mut sections = Vec::new();
     for section in Section::ALL {
-        sections.push(section.text(settings)?);
+        sections.push(section.text(selection)?);
     }
-    if settings.write {
+    if selection.write {
         let path = root().join("docs/methods.md");
         let text = format!(
             "# Every method on every scene\n\n\
@@ -111,7 +151,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
              the acute corners, where two particles would end at one place: beside the paper, pairs nearer than 0.7 ∆s\n\
              repel each other, and residuals are counted without that.\n\n{tanks}\n\
              {}",
-            if settings.quick {
+            if selection.quick {
                 " (the quick scenes only)"
             } else {
                 ""

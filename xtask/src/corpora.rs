@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use sphpack_geometry::{GeometryError, Outline, Sketch, Surface};
 
-use crate::root;
+use crate::arguments::Arguments;
+use crate::workspace::root;
 
 /// By how much an area may differ from the judge's, in parts of it.
 const MOST_OFF: f64 = 0.01;
@@ -37,26 +38,15 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self::default();
-        let mut arguments = arguments.iter();
-        while let Some(argument) = arguments.next() {
-            match argument.as_str() {
-                "--write" => settings.write = true,
-                "--data" => {
-                    settings.data = arguments.next().ok_or("--data needs a folder")?.into();
-                }
-                other => {
-                    return Err(format!(
-                        "corpora does not know {other}; see cargo xtask help"
-                    ));
-                }
-            }
-        }
-        if settings.data.as_os_str().is_empty() {
-            return Err("corpora needs --data DIR; see cargo xtask help".into());
-        }
-        Ok(settings)
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &["--data DIR", "--write"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        let data = arguments.path("--data");
+        Ok(Self {
+            data: data.ok_or("cargo xtask corpora needs --data DIR; see cargo xtask help")?,
+            write: arguments.has("--write"),
+        })
     }
 }
 

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use sphpack::{Options, run as pack};
 use sphpack_packing::Silent;
 
-use crate::reproduce::{Settings, load};
+use crate::selection::Selection;
+use crate::shipped::load;
 
 const HEAD: &str = "\
 | scene | ∆s | κ | L∞ | 99 % within | residual of free max, rms | closest pair / ∆s | evaluations | seconds |
@@ -24,15 +25,15 @@ const SCENES: [(&str, f64, bool); 4] = [
 const STIFFNESS: [f64; 6] = [0.0, 3.0, 10.0, 30.0, 100.0, 300.0];
 
 /// The table of stiffness κ against density and residual.
-pub(crate) fn table(settings: &Settings) -> Result<String, String> {
+pub(crate) fn table(selection: &Selection) -> Result<String, String> {
     let mut table = HEAD.to_owned();
     print!("\n{HEAD}");
     for (name, spacing, quick) in SCENES {
-        if !settings.wants(name, quick) {
+        if !selection.wants(name, quick) {
             continue;
         }
         for stiffness in STIFFNESS {
-            let Some(mut scene) = load(name, settings)? else {
+            let Some(mut scene) = load(name, selection)? else {
                 continue;
             };
             scene.spacing = spacing;

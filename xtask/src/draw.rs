@@ -5,7 +5,8 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::root;
+use crate::arguments::Arguments;
+use crate::workspace::root;
 
 /// How many times to draw, and from which seed on.
 #[derive(Debug, Clone, Copy)]
@@ -15,25 +16,16 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &["--rounds N", "--seed N"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
         let now = SystemTime::now().duration_since(UNIX_EPOCH);
-        let mut settings = Self {
-            rounds: 100,
-            seed: now.map_or(2, |now| now.as_secs()),
-        };
-        let mut arguments = arguments.iter();
-        while let Some(name) = arguments.next() {
-            let value = arguments.next().ok_or(format!("{name} needs a value"))?;
-            let number = value
-                .parse()
-                .map_err(|_| format!("{name} is {value}; it must be a whole number"))?;
-            match name.as_str() {
-                "--rounds" => settings.rounds = number,
-                "--seed" => settings.seed = number,
-                other => return Err(format!("draw does not know {other}; see cargo xtask help")),
-            }
-        }
-        Ok(settings)
+        let seed = now.map_or(2, |now| now.as_secs());
+        Ok(Self {
+            rounds: arguments.whole("--rounds")?.unwrap_or(100),
+            seed: arguments.whole("--seed")?.unwrap_or(seed),
+        })
     }
 }
 

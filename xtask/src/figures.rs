@@ -7,7 +7,8 @@ use sphpack::{Options, Outcome, Packing, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_packing::{Kind, Silent};
 
-use crate::reproduce::{Settings, load};
+use crate::selection::Selection;
+use crate::shipped::load;
 
 const VARIATION: &str = "\
 | scene | ∆s | method | total variation, paper 001 | ours, all particles | ours, to ∆s inside |
@@ -25,14 +26,14 @@ const PRINTED: [(&str, f64, Method, f64); 6] = [
 ];
 
 /// Total variations of 001's three methods.
-pub(crate) fn variation(settings: &Settings) -> Result<String, String> {
+pub(crate) fn variation(selection: &Selection) -> Result<String, String> {
     let mut table = VARIATION.to_owned();
     print!("\n{VARIATION}");
     for (name, spacing, method, printed) in PRINTED {
-        if !settings.wants(name, name == "cylinder") {
+        if !selection.wants(name, name == "cylinder") {
             continue;
         }
-        let Some(mut scene) = load(name, settings)? else {
+        let Some(mut scene) = load(name, selection)? else {
             continue;
         };
         scene.spacing = spacing;
@@ -81,7 +82,7 @@ const TANK: &str = "\
 ";
 
 /// 002's tanks at rest.
-pub(crate) fn tanks(settings: &Settings) -> Result<String, String> {
+pub(crate) fn tanks(selection: &Selection) -> Result<String, String> {
     let mut table = TANK.to_owned();
     print!("\n{TANK}");
     for (name, cells) in [
@@ -90,10 +91,10 @@ pub(crate) fn tanks(settings: &Settings) -> Result<String, String> {
         ("trapezoid", 100.0),
         ("bends", 50.0),
     ] {
-        if !settings.wants(name, cells == 25.0) {
+        if !selection.wants(name, cells == 25.0) {
             continue;
         }
-        let Some(mut scene) = load(name, settings)? else {
+        let Some(mut scene) = load(name, selection)? else {
             continue;
         };
         scene.spacing = 1.0 / cells;

@@ -8,8 +8,9 @@ use std::time::{Duration, Instant};
 
 use sphpack_geometry::{BodyFormat, Sketch, Soup};
 
+use crate::arguments::Arguments;
 use crate::mangle::Mangler;
-use crate::root;
+use crate::workspace::root;
 
 /// An input of a few hundred bytes must not take longer.
 const MOST_TIME: Duration = Duration::from_secs(2);
@@ -31,24 +32,15 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self {
-            inputs: 1_000_000,
-            seed: 0,
-            only: None,
-        };
-        let mut arguments = arguments.iter();
-        while let Some(name) = arguments.next() {
-            let value = arguments.next().ok_or(format!("{name} needs a value"))?;
-            let wrong = |_| format!("{name} is {value}; it must be a whole number");
-            match name.as_str() {
-                "--inputs" => settings.inputs = value.parse().map_err(wrong)?,
-                "--seed" => settings.seed = value.parse().map_err(wrong)?,
-                "--only" => settings.only = Some(value.clone()),
-                other => return Err(format!("fuzz does not know {other}; see cargo xtask help")),
-            }
-        }
-        Ok(settings)
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &["--inputs N", "--seed N", "--only FORMAT"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        Ok(Self {
+            inputs: arguments.whole("--inputs")?.unwrap_or(1_000_000),
+            seed: arguments.whole("--seed")?.unwrap_or(0),
+            only: arguments.text("--only"),
+        })
     }
 }
 

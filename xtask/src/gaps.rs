@@ -10,8 +10,8 @@ use sphpack_neighbors::{Domain, KdTree, point};
 use sphpack_packing::{Complex, Fields, Method, Packed, Particles, Problem, Relaxation, Silent};
 
 use crate::parsed::parsed;
-use crate::reproduce::Settings;
-use crate::root;
+use crate::selection::Selection;
+use crate::workspace::root;
 
 pub(crate) const ABOUT: &str = "
 The airfoils NACA 5515 and 30P30N (its three elements read from DIR/30p30n) at ∆s = c/250, 004's kernel and h/∆s. As in
@@ -56,7 +56,7 @@ struct Airfoil {
     domain: Domain<2>,
 }
 
-fn airfoils(settings: &Settings) -> Result<Vec<Airfoil>, String> {
+fn airfoils(selection: &Selection) -> Result<Vec<Airfoil>, String> {
     let around = |elements: Vec<Outline>, name| {
         let bounds = (elements.iter().skip(1))
             .fold(elements[0].bounds(), |all, one| all.union(one.bounds()))
@@ -71,7 +71,7 @@ fn airfoils(settings: &Settings) -> Result<Vec<Airfoil>, String> {
     };
     let naca = Outline::naca("5515", 1.0).map_err(|error| error.to_string())?;
     let mut all = vec![around(vec![naca], "NACA 5515")];
-    let folder = (settings.data.clone())
+    let folder = (selection.data.clone())
         .unwrap_or_else(|| root().join("data"))
         .join("30p30n");
     let files = [
@@ -90,12 +90,12 @@ fn airfoils(settings: &Settings) -> Result<Vec<Airfoil>, String> {
     Ok(all)
 }
 
-/// The table; the picture where settings say so.
-pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
+/// The table; the picture where the page is written.
+pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
     let mut text = HEAD.to_owned();
     print!("\n{HEAD}");
     let mut panels = Vec::new();
-    let all = airfoils(settings)?;
+    let all = airfoils(selection)?;
     for airfoil in &all {
         let error = |error: &dyn std::fmt::Display| format!("{}: {error}", airfoil.name);
         let seen = |origin: &dyn Fn(&Outline) -> [f64; 2]| -> Result<Vec<Outline>, String> {
@@ -158,7 +158,7 @@ pub(crate) fn tables(settings: &Settings) -> Result<String, String> {
     if all.len() < 2 {
         text.push_str("| 30P30N | no data | | | | | | |\n");
     }
-    if settings.write {
+    if selection.write {
         let path = root().join("docs/gaps.svg");
         fs::write(&path, picture(&all[0], &panels))
             .map_err(|error| format!("{}: {error}", path.display()))?;

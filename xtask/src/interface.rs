@@ -8,8 +8,9 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::point;
 use sphpack_packing::{Fields, Kind, Lattice, Relaxation, Silent};
 
-use crate::reproduce::{Settings, load};
 use crate::rest::at_rest;
+use crate::selection::Selection;
+use crate::shipped::load;
 
 pub(crate) const ABOUT: &str = "Density by each side's own kernel and h, as
 the paper has them: Wendland's C2 at h/∆s = 1.05 in solids and 1.3 in the fluid, over Γ₀ of the lattice that rests
@@ -61,25 +62,25 @@ const KERNEL: KernelKind = KernelKind::WendlandC2;
 const FLUID_H: f64 = 1.3;
 
 /// Separate relaxation, complex relaxation, plain and levelled, and our balanced method, judged alike.
-pub(crate) fn interface(settings: &Settings) -> Result<String, String> {
+pub(crate) fn interface(selection: &Selection) -> Result<String, String> {
     let mut table = HEAD.to_owned();
     let mut factors = String::new();
     print!("\n{HEAD}");
     for (name, spacing) in ROWS {
-        if !settings.wants(name, name == "cylinder") {
+        if !selection.wants(name, name == "cylinder") {
             continue;
         }
         let mut layers = Vec::new();
         for (method, levelling) in WAYS {
             let way = (method, levelling);
-            let Some((solution, end)) = packed(name, spacing, way, MOST_ITERATIONS, settings)?
+            let Some((solution, end)) = packed(name, spacing, way, MOST_ITERATIONS, selection)?
             else {
                 continue;
             };
             let figures = Figures::of(&solution);
             let mut energy = "–".to_owned();
             if method != Method::Balanced {
-                let begin = packed(name, spacing, way, 0, settings)?;
+                let begin = packed(name, spacing, way, 0, selection)?;
                 let begin = begin.map_or(f64::NAN, |(begin, _)| Figures::of(&begin).energy);
                 energy = format!("{:.1e}", figures.energy / begin);
                 layers.push(figures.layer);
@@ -133,9 +134,9 @@ fn packed(
     spacing: f64,
     (method, levelling): (Method, Option<f64>),
     most: usize,
-    settings: &Settings,
+    selection: &Selection,
 ) -> Result<Option<(Solution<2>, String)>, String> {
-    let Some(mut scene) = load(name, settings)? else {
+    let Some(mut scene) = load(name, selection)? else {
         return Ok(None);
     };
     scene.spacing = spacing;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::root;
+use crate::workspace::root;
 
 /// Puts a table between its marks in docs/reliability.md.
 pub(crate) fn write(mark: &str, table: &str) -> Result<(), String> {

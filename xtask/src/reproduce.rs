@@ -2,76 +2,16 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use sphpack::scene::Method;
-use sphpack::{Options, Report, Scene, run as pack};
+use sphpack::{Options, Report, run as pack};
 use sphpack_packing::Silent;
 
-use crate::root;
 use crate::rows::{Figure, ROWS, Row};
-use crate::sections::Section;
-
-/// What to run.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Settings {
-    /// Leave out the long rows.
-    pub(crate) quick: bool,
-    /// Write docs/reproduction.md.
-    pub(crate) write: bool,
-    /// The one scene to run.
-    pub(crate) only: Option<String>,
-    /// Where bunny.stl is; `data` in the workspace if not said.
-    pub(crate) data: Option<PathBuf>,
-    /// Of `compare`, the one method to print the rows of.
-    pub(crate) method: Option<String>,
-    /// Of `compare`, one section alone.
-    pub(crate) section: Option<Section>,
-}
-
-impl Settings {
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self::default();
-        let mut arguments = arguments.iter();
-        while let Some(argument) = arguments.next() {
-            match argument.as_str() {
-                "--quick" => settings.quick = true,
-                "--write" => settings.write = true,
-                "--only" => {
-                    let scene = arguments.next().ok_or("--only needs a scene's name")?;
-                    settings.only = Some(scene.clone());
-                }
-                "--method" => {
-                    let method = arguments.next().ok_or("--method needs a name")?;
-                    settings.method = Some(method.clone());
-                }
-                "--data" => {
-                    let folder = arguments.next().ok_or("--data needs a folder")?;
-                    settings.data = Some(folder.into());
-                }
-                other => {
-                    if let Some(section) = Section::ALL.into_iter().find(|s| s.flag() == other) {
-                        settings.section = Some(section);
-                        continue;
-                    }
-                    return Err(format!(
-                        "reproduce-paper does not know {other}; see cargo xtask help"
-                    ));
-                }
-            }
-        }
-        if settings.write && (settings.only.is_some() || settings.method.is_some()) {
-            return Err("--write needs every row: leave --only and --method out".to_owned());
-        }
-        Ok(settings)
-    }
-
-    /// Whether a row is asked for.
-    pub(crate) fn wants(&self, scene: &str, quick: bool) -> bool {
-        (quick || !self.quick) && self.only.as_ref().is_none_or(|only| only == scene)
-    }
-}
+use crate::selection::Selection;
+use crate::shipped::load;
+use crate::workspace::root;
 
 const HEAD: &str = "\
 | scene | ∆s | h/∆s | ε | figure | paper 001 | bar | ours | L∞ | total variation | iterations | \
@@ -80,15 +20,15 @@ on the surface / N_s | particles | seconds | |
 ";
 
 /// Runs the rows; fails where one misses its bar.
-pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+pub(crate) fn run(selection: &Selection) -> Result<(), String> {
     let mut table = HEAD.to_owned();
     print!("{HEAD}");
     let mut missed = Vec::new();
     for row in ROWS
         .iter()
-        .filter(|row| settings.wants(row.scene, row.quick))
+        .filter(|row| selection.wants(row.scene, row.quick))
     {
-        let line = match run_row(row, settings)? {
+        let line = match run_row(row, selection)? {
             None => format!("{} | | | no data | | | | | | | | |\n", head(row)),
             Some((report, seconds)) => {
                 let value = figure(row.figure, &report);
@@ -105,14 +45,14 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         print!("{line}");
         table.push_str(&line);
     }
-    if settings.write {
+    if selection.write {
         let path = root().join("docs/reproduction.md");
         let text = format!(
             "# Paper 001, published and ours\n\n\
              The hybrid method with its defaults, no tuning per shape{}. Regenerate with\n\
              `cargo xtask reproduce-paper --data DIR --write`, where DIR holds `bunny.stl`.\n\
              Densities are dimensionless, times are wall-clock seconds and depend on the machine.\n\n{table}",
-            if settings.quick {
+            if selection.quick {
                 " (the quick rows only)"
             } else {
                 ""
@@ -128,8 +68,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
 }
 
 /// Packs one row; `None` where its body's file is not there.
-fn run_row(row: &Row, settings: &Settings) -> Result<Option<(Report, f64)>, String> {
-    let Some(mut scene) = load(row.scene, settings)? else {
+fn run_row(row: &Row, selection: &Selection) -> Result<Option<(Report, f64)>, String> {
+    let Some(mut scene) = load(row.scene, selection)? else {
         return Ok(None);
     };
     scene.packing.method = Method::Hybrid;
@@ -143,30 +83,6 @@ fn run_row(row: &Row, settings: &Settings) -> Result<Option<(Report, f64)>, Stri
     let outcome =
         pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
     Ok(Some((outcome.report, start.elapsed().as_secs_f64())))
-}
-
-/// A shipped scene; `None` where its body's file is not there.
-pub(crate) fn load(name: &str, settings: &Settings) -> Result<Option<Scene>, String> {
-    let path = root().join("scenes").join(format!("{name}.toml"));
-    let mut text =
-        fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-    if name == "bunny" {
-        let file = settings
-            .data
-            .clone()
-            .unwrap_or_else(|| root().join("data"))
-            .join("bunny.stl");
-        if !file.is_file() {
-            return Ok(None);
-        }
-        let file = file
-            .canonicalize()
-            .map_err(|error| format!("{}: {error}", file.display()))?;
-        text = text.replace("../data/bunny.stl", &file.display().to_string());
-    }
-    Scene::parse(&text, &path)
-        .map(Some)
-        .map_err(|error| error.to_string())
 }
 
 fn figure(figure: Figure, report: &Report) -> f64 {

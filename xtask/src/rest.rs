@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use sphpack_kernels::KernelKind;
+use sphpack_neighbors::random::Congruential;
 use sphpack_neighbors::{Domain, point};
 use sphpack_packing::forces::Forces;
 use sphpack_packing::{Kind, Lattice, Particles};
@@ -55,13 +56,8 @@ fn relaxed(kernel: KernelKind, h: f64, lattice: Lattice, shake: f64) -> [f64; 4]
     let domain = Domain::new([0.0; 2], [EDGE; 2]).with_periodic([true, true]);
     let filling = lattice.fill(domain.bounds, 1.0);
     let gamma = Lattice::auto(2, kernel, h).gamma(kernel, h);
-    let mut state = 12_345_u64;
-    let mut shaken = |x: f64| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        x + shake * (2.0 * (state >> 11) as f64 / (1_u64 << 53) as f64 - 1.0)
-    };
+    let mut random = Congruential::new(12_345);
+    let mut shaken = |x: f64| x + shake * (2.0 * random.unit() - 1.0);
     let mut particles = Particles::default();
     for site in filling.sites() {
         let place = domain.wrap(site.map(&mut shaken));

@@ -9,7 +9,8 @@ use sphpack::files::PARTICLE_FORMATS;
 use sphpack::{Options, Scene, run as pack};
 use sphpack_packing::Silent;
 
-use crate::root;
+use crate::arguments::Arguments;
+use crate::workspace::root;
 
 /// What the script needs besides Python.
 const PACKAGES: [&str; 3] = ["numpy", "pyvista", "meshio"];
@@ -61,23 +62,14 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self::default();
-        let mut arguments = arguments.iter();
-        while let Some(argument) = arguments.next() {
-            match argument.as_str() {
-                "--install" => settings.install = true,
-                "--python" => {
-                    let python = arguments.next().ok_or("--python needs a program")?;
-                    settings.python = Some(python.into());
-                }
-                other => {
-                    return Err(format!(
-                        "round-trip does not know {other}; see cargo xtask help"
-                    ));
-                }
-            }
-        }
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &["--python PROGRAM", "--install"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        let settings = Self {
+            python: arguments.path("--python"),
+            install: arguments.has("--install"),
+        };
         if settings.install && settings.python.is_some() {
             return Err("--install makes an environment of its own: leave --python out".to_owned());
         }

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use crate::reproduce::Settings;
-use crate::root;
+use crate::selection::Selection;
+use crate::workspace::root;
 use crate::{accelerations, agitators, gaps, interface};
 
 /// A part with its flag.
@@ -44,12 +44,12 @@ impl Section {
     }
 
     /// Its text, heading included.
-    pub(crate) fn text(self, settings: &Settings) -> Result<String, String> {
+    pub(crate) fn text(self, selection: &Selection) -> Result<String, String> {
         let (about, tables) = match self {
-            Self::Accelerations => (accelerations::ABOUT, accelerations::tables(settings)?),
-            Self::Agitators => (agitators::ABOUT, agitators::tables(settings)?),
-            Self::Interface => (interface::ABOUT, interface::interface(settings)?),
-            Self::Gaps => (gaps::ABOUT, gaps::tables(settings)?),
+            Self::Accelerations => (accelerations::ABOUT, accelerations::tables(selection)?),
+            Self::Agitators => (agitators::ABOUT, agitators::tables(selection)?),
+            Self::Interface => (interface::ABOUT, interface::interface(selection)?),
+            Self::Gaps => (gaps::ABOUT, gaps::tables(selection)?),
         };
         let data = match self {
             Self::Gaps => " --data DIR",
@@ -62,10 +62,10 @@ impl Section {
         ))
     }
 
-    /// Runs it alone, and puts it in its place in docs/methods.md where settings say so.
-    pub(crate) fn run(self, settings: &Settings) -> Result<(), String> {
-        let text = self.text(settings)?;
-        if !settings.write {
+    /// Runs it alone, and puts it in its place in docs/methods.md where the page is written.
+    pub(crate) fn run(self, selection: &Selection) -> Result<(), String> {
+        let text = self.text(selection)?;
+        if !selection.write {
             return Ok(());
         }
         let path = root().join("docs/methods.md");

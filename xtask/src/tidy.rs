@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn the_workspace_is_tidy() {
-        assert_eq!(complaints(&crate::root()), Vec::<String>::new());
+        assert_eq!(complaints(&crate::workspace::root()), Vec::<String>::new());
     }
 
     #[test]

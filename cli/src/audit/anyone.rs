@@ -1,6 +1,6 @@
 //! The audit of somebody's particles: what can be said without knowing what was asked for.
 
-use sphpack_neighbors::{Bounds, Domain};
+use sphpack_neighbors::{Bounds, Domain, point};
 use sphpack_packing::closest_pair::CROWDED;
 use sphpack_packing::{ClosestPair, Kind};
 
@@ -59,7 +59,7 @@ impl Audit {
 /// The smallest distance in ∆s, that over the mean size where below a half, and the place of that.
 fn pair<const D: usize>(cloud: &Cloud, spacing: f64) -> (f64, f64, [f64; 3]) {
     let positions: Vec<[f64; D]> = (cloud.position.iter())
-        .map(|p| std::array::from_fn(|k| p[k]))
+        .map(|p| point::of_slice(p))
         .collect();
     let domain = Domain {
         bounds: Bounds::of(&positions),
@@ -67,7 +67,7 @@ fn pair<const D: usize>(cloud: &Cloud, spacing: f64) -> (f64, f64, [f64; 3]) {
     };
     let is_asked = |i: usize| cloud.kind[i] != Kind::Frozen;
     let pair = ClosestPair::of(&domain, &positions, &cloud.volume, is_asked, 2.0 * spacing);
-    let place = std::array::from_fn(|k| pair.place.get(k).copied().unwrap_or(0.0));
+    let place = point::of_slice(&pair.place);
     let distance = pair.distance / spacing;
     (
         if distance.is_finite() { distance } else { 0.0 },

@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use sphpack_neighbors::point;
 use sphpack_packing::problem::size;
 use sphpack_packing::{Kind, StopReason, pace};
 
@@ -325,10 +326,8 @@ impl Files {
         }
         if let Some((path, format)) = &self.picture {
             let report = &outcome.report;
-            let corner = |values: &Option<Vec<f64>>| {
-                let values = values.as_deref().unwrap_or(&[]);
-                std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
-            };
+            let corner =
+                |values: &Option<Vec<f64>>| point::of_slice(values.as_deref().unwrap_or(&[]));
             let subject = Subject {
                 name: &scene.name,
                 table: &outcome.table,

@@ -9,7 +9,7 @@ mod tests;
 
 use std::sync::Arc;
 
-use sphpack_neighbors::{Bounds, Domain, point};
+use sphpack_neighbors::{Bounds, Domain, Odometer, point};
 
 use crate::GeometryError;
 use crate::sample::Candidates;
@@ -318,10 +318,9 @@ fn groups_of_images<const D: usize>(
     image: impl Fn(usize, usize, [f64; D]) -> bool,
 ) -> Vec<Vec<usize>> {
     let size = domain.bounds.size();
-    let shifts: Vec<[f64; D]> = (0..3_usize.pow(D as u32))
-        .map(|number| std::array::from_fn(|k| (number / 3_usize.pow(k as u32) % 3) as f64 - 1.0))
-        .filter(|step: &[f64; D]| (0..D).all(|k| step[k] == 0.0 || domain.periodic[k]))
-        .map(|step| std::array::from_fn(|k| step[k] * size[k]))
+    let steps = domain.periodic.map(i64::from);
+    let shifts: Vec<[f64; D]> = Odometer::new(steps.map(|n| -n), steps.map(|n| n + 1))
+        .map(|step| std::array::from_fn(|k| step[k] as f64 * size[k]))
         .collect();
     let mut first: Vec<usize> = (0..count).collect();
     for a in 0..count {

@@ -1,6 +1,6 @@
 //! Whether a level set exists, and how long or large it is.
 
-use sphpack_neighbors::{Bounds, point};
+use sphpack_neighbors::{Bounds, place_of, point};
 
 use super::gradient;
 use crate::surface::Surface;
@@ -25,11 +25,9 @@ pub(super) fn reaches<const D: usize>(surface: &dyn Surface<D>, depth: f64) -> b
     let enough = -depth * (1.0 - 1e-6);
     let mut deepest: Vec<(f64, [f64; D])> = Vec::new();
     for cell in 0..LOOK.pow(D as u32) {
-        let mut rest = cell;
+        let place = place_of(cell, [LOOK; D]);
         let p: [f64; D] = std::array::from_fn(|k| {
-            let i = rest % LOOK;
-            rest /= LOOK;
-            bounds.min[k] + size[k] * (i as f64 + 0.5) / LOOK as f64
+            bounds.min[k] + size[k] * (place[k] as f64 + 0.5) / LOOK as f64
         });
         let hit = surface.closest(p);
         let below = point::add_scaled(hit.point, -depth * (1.0 + 1e-6), gradient(p, &hit));

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use rayon::prelude::*;
-use sphpack_neighbors::{Bounds, point};
+use sphpack_neighbors::{Bounds, place_of, point};
 
 use super::field::{Boolean, Field};
 use crate::GeometryError;
@@ -221,12 +221,8 @@ impl<const D: usize> Blocks<D> {
 
     /// Node `n` of the block `key`.
     fn node_of(key: [i32; D], n: usize) -> [i32; D] {
-        let mut rest = n;
-        key.map(|b| {
-            let i = (rest % SIDE as usize) as i32;
-            rest /= SIDE as usize;
-            b * SIDE + i
-        })
+        let local = place_of(n, [SIDE as usize; D]);
+        std::array::from_fn(|k| key[k] * SIDE + local[k] as i32)
     }
 
     fn number_of(local: [i32; D]) -> usize {

@@ -66,25 +66,7 @@ impl Mesh {
         vertices: Vec<[f64; 3]>,
         mut triangles: Vec<[u32; 3]>,
     ) -> Result<Self, GeometryError> {
-        // Squares must stay finite too, or every distance is infinite.
-        if let Some(index) = vertices
-            .iter()
-            .position(|&v| !point::norm_squared(v).is_finite())
-        {
-            return Err(GeometryError::NotFinite {
-                what: "vertex",
-                index,
-            });
-        }
-        for (triangle, corners) in triangles.iter().enumerate() {
-            if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices.len()) {
-                return Err(GeometryError::BadIndex {
-                    triangle,
-                    vertex: vertex as usize,
-                    vertices: vertices.len(),
-                });
-            }
-        }
+        topology::check_places(&vertices, &triangles)?;
         triangles.retain(|&[a, b, c]| a != b && b != c && c != a);
         if triangles.is_empty() {
             return Err(GeometryError::NoVolume { triangles: 0 });

@@ -52,6 +52,32 @@ impl Side {
     }
 }
 
+/// Refuses vertices that are no finite numbers, and corners that are no places in `vertices`.
+pub(crate) fn check_places(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+) -> Result<(), GeometryError> {
+    // Squares must stay finite too, or every distance is infinite.
+    let is_bad = |&v: &[f64; 3]| !point::norm_squared(v).is_finite();
+    if let Some(index) = vertices.iter().position(is_bad) {
+        return Err(GeometryError::NotFinite {
+            what: "vertex",
+            index,
+        });
+    }
+    let count = vertices.len();
+    for (triangle, corners) in triangles.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= count) {
+            return Err(GeometryError::BadIndex {
+                triangle,
+                vertex: vertex as usize,
+                vertices: count,
+            });
+        }
+    }
+    Ok(())
+}
+
 /// All sides, those of one edge together.
 pub(crate) fn sorted_sides(triangles: &[[u32; 3]]) -> Vec<Side> {
     let mut sides = Vec::with_capacity(3 * triangles.len());

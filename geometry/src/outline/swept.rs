@@ -137,18 +137,16 @@ fn union(one: &[Vec<[f64; 2]>], other: &[Vec<[f64; 2]>]) -> Loops {
 mod tests {
     use std::f64::consts::TAU;
 
+    use sphpack_neighbors::random::Congruential;
+
     use super::*;
     use crate::surface::Surface;
     use crate::winding_number;
 
     /// Numbers from 0 to 1, always the same.
-    fn numbers(mut state: u64) -> impl FnMut() -> f64 {
-        move || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        }
+    fn numbers(seed: u64) -> impl FnMut() -> f64 {
+        let mut random = Congruential::new(seed);
+        move || random.unit()
     }
 
     /// `count` points around the origin, at radii that `radius` gives.

@@ -1,5 +1,7 @@
 //! Damage to files, the same for the same seed: what the readers' tests and `cargo xtask fuzz` feed them with.
 
+use sphpack_neighbors::random::SplitMix64;
+
 /// Words that readers trip over.
 const WORDS: [&[u8]; 36] = [
     b"\n",
@@ -52,34 +54,24 @@ const NUMBERS: [u32; 8] = [
     0xffff_ffff,
 ];
 
-/// A generator of damage (a splitmix64 generator of numbers).
+/// A generator of damage.
 #[derive(Debug, Clone)]
 pub(crate) struct Mangler {
-    state: u64,
+    random: SplitMix64,
 }
 
 impl Mangler {
     /// The generator of a block of inputs; blocks of one seed have nothing to do with each other.
     pub(crate) fn new(seed: u64, block: u64) -> Self {
-        let mut first = Self {
-            state: seed ^ block.wrapping_mul(0xd1b5_4a32_d192_ed03),
-        };
+        let mut first = SplitMix64::new(seed ^ block.wrapping_mul(0xd1b5_4a32_d192_ed03));
         Self {
-            state: first.next(),
+            random: SplitMix64::new(first.bits()),
         }
-    }
-
-    fn next(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
     }
 
     /// A number below `end`, 0 where that is 0.
     fn below(&mut self, end: usize) -> usize {
-        (self.next() % end.max(1) as u64) as usize
+        (self.random.bits() % end.max(1) as u64) as usize
     }
 
     /// One of the files, with one to eight faults.
@@ -99,7 +91,7 @@ impl Mangler {
         let end = at + self.below((bytes.len() - at).min(64));
         match self.below(10) {
             0 if !bytes.is_empty() => bytes[at] ^= 1 << self.below(8),
-            1 if !bytes.is_empty() => bytes[at] = self.next() as u8,
+            1 if !bytes.is_empty() => bytes[at] = self.random.bits() as u8,
             2 => bytes.truncate(at),
             3 => drop(bytes.drain(at..end)),
             4 => {

@@ -1,5 +1,6 @@
 //! Many points strewn over a surface by area, of which the evenest are kept.
 
+use sphpack_neighbors::random::SplitMix64;
 use sphpack_neighbors::{Bounds, Domain, point};
 
 use crate::level_inset::cut;
@@ -106,7 +107,7 @@ impl<const D: usize> Candidates<D> {
         let root = look(near, center, 0.5 * leaf);
         gather(near, &root, levels, search, &mut pieces);
         pieces.retain(|piece| is_wanted(piece.center));
-        let mut noise = Noise::default();
+        let mut noise = SplitMix64::default();
         Self::systematic(
             wanted,
             &pieces,
@@ -183,12 +184,12 @@ impl<const D: usize> Piece<D> {
     }
 
     /// A point of the piece.
-    fn somewhere(&self, noise: &mut Noise) -> [f64; D] {
+    fn somewhere(&self, noise: &mut SplitMix64) -> [f64; D] {
         let foot = point::add_scaled(self.center, -self.height, self.normal);
         // A plane through a cube lies within its circumscribed ball; a third of the tries or so succeed.
         for _ in 0..32 {
             let from: [f64; D] =
-                std::array::from_fn(|_| self.half * (D as f64).sqrt() * (2.0 * noise.next() - 1.0));
+                std::array::from_fn(|_| self.half * (D as f64).sqrt() * (2.0 * noise.unit() - 1.0));
             let p = point::add(foot, point::reject(from, self.normal));
             if (0..D).all(|k| (p[k] - self.center[k]).abs() <= self.half) {
                 return p;
@@ -265,19 +266,5 @@ fn gather<const D: usize>(
                 pieces.push(Piece { area, ..*child });
             }
         }
-    }
-}
-
-/// Numbers in 0 … 1 that look random and are the same every time (Weyl's sequence, scrambled by splitmix64).
-#[derive(Debug, Clone, Default)]
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 }

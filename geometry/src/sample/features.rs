@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use sphpack_neighbors::{Domain, point};
+use sphpack_neighbors::{Domain, Odometer, point};
 
 use super::polyline::Polyline;
 use crate::surface::{Closest, Feature, Surface};
@@ -207,13 +207,8 @@ impl<const D: usize> Crowd<D> {
     /// Takes `p` in where nobody is too near.
     fn admits(&mut self, p: [f64; D]) -> bool {
         let cell = p.map(|x| (x / self.least).floor() as i64);
-        for number in 0..3_usize.pow(D as u32) {
-            let mut rest = number;
-            let other: [i64; D] = std::array::from_fn(|k| {
-                let step = rest % 3;
-                rest /= 3;
-                cell[k].saturating_add(step as i64 - 1)
-            });
+        for step in Odometer::new([-1; D], [2; D]) {
+            let other: [i64; D] = std::array::from_fn(|k| cell[k].saturating_add(step[k]));
             let crowded = self
                 .cells
                 .get(&other)

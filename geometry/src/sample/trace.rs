@@ -69,8 +69,7 @@ pub(super) fn rings<const D: usize>(
 
 impl<const D: usize, F: Fn([f64; D]) -> Closest<D>> Grid<'_, D, F> {
     fn place(&self, x: f64, y: f64) -> [f64; D] {
-        let at = [x, y];
-        std::array::from_fn(|k| self.origin[k] + self.cell * at.get(k).copied().unwrap_or(0.0))
+        point::add_scaled(self.origin, self.cell, point::of_slice(&[x, y]))
     }
 
     /// Looks for the curve in the square of `width` cells.

@@ -116,7 +116,7 @@ impl<const D: usize> Surface<D> for Ball<D> {
         }
         let at = |i: usize| {
             let (sin, cos) = (TAU * i as f64 / count as f64).sin_cos();
-            let normal = std::array::from_fn(|k| [cos, sin].get(k).copied().unwrap_or(0.0));
+            let normal = point::of_slice(&[cos, sin]);
             Closest {
                 point: point::add_scaled(self.center, self.radius, normal),
                 normal,

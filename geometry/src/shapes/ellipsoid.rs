@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use sphpack_neighbors::{Bounds, point};
+use sphpack_neighbors::{Bounds, gauss, point};
 
 use crate::GeometryError;
 use crate::level_inset::LevelInset;
@@ -217,19 +217,12 @@ fn integrals<const D: usize>(e: [f64; D]) -> (f64, f64) {
     if D != 3 {
         return (f64::NAN, f64::NAN);
     }
-    const NODES: [(f64, f64); 5] = [
-        (0.0, 0.568_888_888_888_888_9),
-        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-        (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
-    ];
     const STRIPS: usize = 32;
     // A quarter turn, both ends at half weight, by symmetry.
     const QUARTER: usize = 64;
     let (mut area, mut support) = (0.0, 0.0);
     for strip in 0..STRIPS {
-        for (node, weight) in NODES {
+        for (node, weight) in gauss::FIVE {
             // From the equator to the pole, by symmetry.
             let angle = 0.25 * PI * (2.0 * strip as f64 + 1.0 + node) / STRIPS as f64;
             let (z, r) = angle.sin_cos();

@@ -1,6 +1,7 @@
 //! Every defect is found, counted and mended or refused; what is mended is found clean.
 
 use proptest::prelude::*;
+use sphpack_neighbors::random::SplitMix64;
 
 use super::*;
 use crate::outline::booleans::perimeter;
@@ -293,14 +294,8 @@ fn everything_at_once() {
 
 #[test]
 fn a_scribble_is_counted_and_refused() {
-    let mut state = 1_u64;
-    let mut random = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (state >> 33) as f64
-    };
-    let scribble = sketch(&[(0..300).map(|_| [random(), random()]).collect()]);
+    let mut random = SplitMix64::new(1);
+    let scribble = sketch(&[(0..300).map(|_| [random.unit(), random.unit()]).collect()]);
     let report = scribble.check();
     let crossings = report.defect(Kind::SelfIntersection).unwrap().count;
     assert!(crossings > 1000, "{crossings}");

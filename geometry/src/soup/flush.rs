@@ -240,6 +240,8 @@ fn lie_on_each_other(
 
 #[cfg(test)]
 mod tests {
+    use sphpack_neighbors::random::Congruential;
+
     use super::*;
     use crate::{Similarity, Surface};
 
@@ -318,11 +320,8 @@ mod tests {
     }
 
     /// Small whole numbers from a seed.
-    fn next(state: &mut u64, below: u64) -> u64 {
-        *state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (*state >> 33) % below
+    fn next(random: &mut Congruential, below: u64) -> u64 {
+        (random.bits() >> 33) % below
     }
 
     /// Boxes of whole sizes that fill a grid in part, turned, some in single precision: one body of the cells that they fill, or
@@ -332,14 +331,14 @@ mod tests {
         const SIZE: usize = 5;
         let mut refused = 0;
         for seed in 0..150 {
-            let mut state = seed;
+            let mut random = Congruential::new(seed);
             let mut filled = [[[false; SIZE]; SIZE]; SIZE];
             let mut faces = Vec::new();
             let mut volume = 0;
             for _ in 0..4 {
-                let low: [usize; 3] = std::array::from_fn(|_| next(&mut state, 3) as usize);
+                let low: [usize; 3] = std::array::from_fn(|_| next(&mut random, 3) as usize);
                 let high: [usize; 3] =
-                    std::array::from_fn(|k| low[k] + 1 + next(&mut state, 2) as usize);
+                    std::array::from_fn(|k| low[k] + 1 + next(&mut random, 2) as usize);
                 let cells = || {
                     (low[0]..high[0]).flat_map(move |i| {
                         (low[1]..high[1])
@@ -353,7 +352,7 @@ mod tests {
                     filled[i][j][k] = true;
                     volume += 1;
                 }
-                let bits = next(&mut state, 64) as u32;
+                let bits = next(&mut random, 64) as u32;
                 faces.extend(brick(low.map(|x| x as f64), high.map(|x| x as f64), bits));
             }
             let is_full = |i: isize, j: isize, k: isize| {

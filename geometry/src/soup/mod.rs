@@ -65,23 +65,7 @@ impl Soup {
     /// # Errors
     /// [`GeometryError::NotFinite`], [`GeometryError::BadIndex`].
     pub fn new(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, GeometryError> {
-        // Squares must stay finite too, or every distance is infinite.
-        let is_bad = |&v: &[f64; 3]| !point::norm_squared(v).is_finite();
-        if let Some(index) = vertices.iter().position(is_bad) {
-            return Err(GeometryError::NotFinite {
-                what: "vertex",
-                index,
-            });
-        }
-        for (triangle, corners) in triangles.iter().enumerate() {
-            if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices.len()) {
-                return Err(GeometryError::BadIndex {
-                    triangle,
-                    vertex: vertex as usize,
-                    vertices: vertices.len(),
-                });
-            }
-        }
+        topology::check_places(&vertices, &triangles)?;
         Ok(Self {
             vertices,
             triangles,

@@ -1,7 +1,7 @@
 //! The connected pockets of fluid between the bodies.
 
 use rayon::prelude::*;
-use sphpack_neighbors::{Bounds, KdTree, point};
+use sphpack_neighbors::{Bounds, KdTree, place_of, point};
 
 use crate::depths::{Depths, around};
 use crate::problem::Problem;
@@ -146,12 +146,9 @@ impl<const D: usize> Fluid<D> {
         let sums: Vec<Vec<(u32, f64)>> = (0..count.iter().product::<usize>())
             .into_par_iter()
             .map(|number| {
-                let mut rest = number;
-                let min: [f64; D] = std::array::from_fn(|k| {
-                    let i = rest % count[k];
-                    rest /= count[k];
-                    bounds.min[k] + edge[k] * i as f64
-                });
+                let cell = place_of(number, count);
+                let min: [f64; D] =
+                    std::array::from_fn(|k| bounds.min[k] + edge[k] * cell[k] as f64);
                 let mut sums = Vec::new();
                 self.add_up(
                     problem,

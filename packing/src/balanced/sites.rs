@@ -4,7 +4,8 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use sphpack_geometry::Closest;
-use sphpack_neighbors::{KdTree, point};
+use sphpack_neighbors::random::scrambled;
+use sphpack_neighbors::{KdTree, Odometer, point};
 
 use super::pockets::Pockets;
 use super::shares::Share;
@@ -140,7 +141,7 @@ fn between<const D: usize>(
     let parts = problem.bodies.len();
     let step = problem.spacing / f64::from(PLACES[D.saturating_sub(2).min(1)]);
     let bounds = problem.domain.bounds;
-    let reach = (BESIDE_OVER_SPACING * problem.spacing / step).ceil() as i32;
+    let reach = (BESIDE_OVER_SPACING * problem.spacing / step).ceil() as i64;
     let around = match problem.bodies.get(region) {
         Some(part) => part.surface.bounds().grown(0.01 * problem.spacing),
         None => bounds,
@@ -151,15 +152,8 @@ fn between<const D: usize>(
     for p in beside.chain([around.center()]) {
         let middle: [i32; D] =
             std::array::from_fn(|k| ((p[k] - bounds.min[k]) / step).round() as i32);
-        let width = (2 * reach + 1) as usize;
-        for number in 0..width.pow(D as u32) {
-            let mut rest = number;
-            cells.push(std::array::from_fn(|k| {
-                let i = (rest % width) as i32 - reach;
-                rest /= width;
-                middle[k] + i
-            }));
-        }
+        let around = Odometer::new([-reach; D], [reach + 1; D]);
+        cells.extend(around.map(|step| std::array::from_fn(|k| middle[k] + step[k] as i32)));
     }
     cells.sort_unstable();
     cells.dedup();
@@ -270,11 +264,4 @@ pub(crate) fn deepest(
         candidates.truncate(count);
     }
     candidates.into_iter().map(|(_, _, i)| i).collect()
-}
-
-/// A one-to-one scramble of 64 bits (the finaliser of SplitMix64).
-fn scrambled(x: u64) -> u64 {
-    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    x ^ (x >> 31)
 }

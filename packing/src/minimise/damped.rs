@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::{Landscape, Minimiser, Step, vectors};
+use crate::motion::time_step;
 use crate::state::{Damaged, State};
 use sphpack_neighbors::point;
 
@@ -22,7 +23,7 @@ impl<const D: usize> Minimiser<D> for Damped<D> {
         let h = landscape.smoothing_length();
         let zeta = DAMPING / landscape.spacing();
         self.velocity.resize(landscape.len(), [0.0; D]);
-        let dt = (0.1 * h).min((0.1 * h / (zeta * self.fastest)).sqrt());
+        let dt = time_step(h, zeta, 1.0, self.fastest);
         for (u, &force) in self.velocity.iter_mut().zip(landscape.force()) {
             *u = point::add_scaled(*u, dt, point::add_scaled(force, -zeta, *u));
         }

@@ -3,11 +3,13 @@
 use std::io::{self, Write};
 
 use rayon::prelude::*;
+use sphpack_geometry::Closest;
 use sphpack_neighbors::{Domain, KdTree, point};
 
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::problem::Body;
+use crate::put_back::off_bound;
 use crate::state::{Damaged, State, values};
 
 /// No free particle comes nearer to a particle surface than this, in ∆s, if it was not nearer before. Those of the first layer
@@ -80,11 +82,15 @@ impl<const D: usize> Watched<D> {
             &surfaces[number].surface
         };
         let hit = surface.closest(*p);
-        let away = point::scale(hit.normal, self.side);
-        let lacking = self.floor - self.side * hit.distance;
-        self.held = (lacking >= -self.slack).then_some(away);
-        if lacking > 0.0 {
-            *p = point::add_scaled(*p, lacking, away);
+        let bound = Closest {
+            normal: point::scale(hit.normal, -self.side),
+            distance: -self.side * hit.distance,
+            ..hit
+        };
+        let lacking = bound.distance + self.floor;
+        self.held = (lacking >= -self.slack).then(|| point::scale(bound.normal, -1.0));
+        if let Some(back) = off_bound(*p, &bound, self.floor) {
+            *p = back;
         }
         self.seen = *p;
         // Who lies on the floor is looked at every time.

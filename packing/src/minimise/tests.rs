@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use sphpack_geometry::{Cuboid, Surface};
+use sphpack_neighbors::random::Congruential;
 use sphpack_neighbors::{Domain, point};
 
 use super::*;
@@ -13,30 +14,28 @@ use crate::seeding::seed;
 use crate::{Kind, Particles, Problem};
 use sphpack_pairs::Repulsion;
 
-fn random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+fn either_way(random: &mut Congruential) -> f64 {
+    random.unit() - 0.5
 }
 
 /// A shaken lattice of every kind of particle, of unequal volumes; boundary particles on the sides of a box.
 fn shaken<const D: usize>(
     shake: f64,
-    mut state: u64,
+    seed_value: u64,
 ) -> (Problem<D>, Particles<D>, Vec<ParticleSurface<D>>) {
     let spacing = if D == 2 { 0.08 } else { 0.2 };
     let problem = Problem::new(Domain::new([0.0; D], [1.0; D]), spacing);
     let mut particles = seed(&problem).expect("a sound problem").particles;
     let surface = Cuboid::new([0.25; D], [0.75; D]).expect("a box");
+    let mut random = Congruential::new(seed_value);
     for i in 0..particles.len() {
-        particles.volume[i] *= 1.0 + 0.2 * random(&mut state);
+        particles.volume[i] *= 1.0 + 0.2 * either_way(&mut random);
         if particles.kind[i] == Kind::Frozen {
             continue;
         }
         particles.kind[i] = [Kind::Free, Kind::Boundary, Kind::Fixed][i % 3];
         for k in 0..D {
-            particles.position[i][k] += 2.0 * shake * problem.spacing * random(&mut state);
+            particles.position[i][k] += 2.0 * shake * problem.spacing * either_way(&mut random);
         }
         if particles.kind[i] == Kind::Boundary {
             // Off the sides' ends, where a step along the surface would turn a corner.
@@ -107,9 +106,9 @@ fn force_is_downhill<const D: usize>(shake: f64, state: u64) -> Result<(), TestC
         landscape.places(&mut place);
         let force = landscape.force().to_vec();
         let mut direction = vec![[0.0; D]; landscape.len()];
-        let mut state = state ^ 0x5555;
+        let mut random = Congruential::new(state ^ 0x5555);
         for d in &mut direction {
-            *d = std::array::from_fn(|_| random(&mut state));
+            *d = std::array::from_fn(|_| either_way(&mut random));
         }
         landscape.make_tangential(&mut direction);
         let slope = vectors::dot(&direction, &force);
@@ -177,9 +176,9 @@ fn the_energy_goes_around_a_periodic_box() {
     domain.periodic = [true, true];
     let problem = Problem::new(domain, 0.08);
     let mut particles = seed(&problem).expect("a sound problem").particles;
-    let mut state = 3;
+    let mut random = Congruential::new(3);
     for p in &mut particles.position {
-        *p = p.map(|x| x + 0.01 * random(&mut state));
+        *p = p.map(|x| x + 0.01 * either_way(&mut random));
     }
     let forces = Forces::of(
         &problem,

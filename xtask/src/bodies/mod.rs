@@ -12,7 +12,8 @@ use std::path::Path;
 use sphpack::{Options, Scene, run as pack};
 use sphpack_packing::{Kind, Silent};
 
-use crate::root;
+use crate::arguments::Arguments;
+use crate::workspace::root;
 
 /// Spacings of each case, from a tenth of its smallest part to half of it.
 const SPACINGS: usize = 40;
@@ -80,24 +81,15 @@ impl Settings {
         }
     }
 
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self::default();
-        let mut arguments = arguments.iter();
-        while let Some(argument) = arguments.next() {
-            match argument.as_str() {
-                "--quick" => settings.quick = true,
-                "--write" => settings.write = true,
-                "--only" => {
-                    settings.only = Some(arguments.next().ok_or("--only needs a name")?.clone());
-                }
-                other => {
-                    return Err(format!(
-                        "bodies does not know {other}; see cargo xtask help"
-                    ));
-                }
-            }
-        }
-        Ok(settings)
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &["--quick", "--only NAME", "--write"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        Ok(Self {
+            quick: arguments.has("--quick"),
+            only: arguments.text("--only"),
+            write: arguments.has("--write"),
+        })
     }
 }
 

@@ -9,9 +9,11 @@ use sphpack::{Options, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_packing::{Lattice, Silent};
 
+use crate::arguments::Arguments;
 use crate::chart::{Axis, Chart, Scale, Series};
-use crate::reproduce::{Settings, load};
-use crate::root;
+use crate::selection::Selection;
+use crate::shipped::load;
+use crate::workspace::root;
 
 const KERNELS: [KernelKind; 4] = [
     KernelKind::Quintic,
@@ -49,8 +51,20 @@ struct Trial {
     evaluations: usize,
 }
 
+/// The arguments that it knows.
+pub(crate) const KNOWN: &[&str] = &["--quick", "--write"];
+
+/// The kernels and h/∆s to run, all scenes of each.
+pub(crate) fn selection(arguments: &Arguments) -> Selection {
+    Selection {
+        quick: arguments.has("--quick"),
+        write: arguments.has("--write"),
+        ..Selection::default()
+    }
+}
+
 /// Writes the table of both, and the chart of the lattices that "auto" takes.
-pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+pub(crate) fn run(selection: &Selection) -> Result<(), String> {
     let mut text = String::from(
         "# Lattices to start from\n\n\
          What a perfect lattice does under background pressure alone, and how packings that start from it end (method\n\
@@ -61,7 +75,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
          energy. Regenerate with `cargo xtask lattices --write`.\n\n",
     );
     for dimension in [2, 3] {
-        let (table, chart) = of_dimension(dimension, settings)?;
+        let (table, chart) = of_dimension(dimension, selection)?;
         let title = if dimension == 2 {
             "In the plane"
         } else {
@@ -71,11 +85,11 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             text,
             "## {title}\n\n![Variation of density against h/∆s](lattices-{dimension}d.svg)\n\n{table}\n"
         );
-        if settings.write {
+        if selection.write {
             write(&format!("docs/lattices-{dimension}d.svg"), &chart.svg())?;
         }
     }
-    if settings.write {
+    if selection.write {
         write("docs/lattices.md", &text)?;
     }
     Ok(())
@@ -86,7 +100,7 @@ fn write(name: &str, text: &str) -> Result<(), String> {
     fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-fn of_dimension(dimension: usize, settings: &Settings) -> Result<(String, Chart), String> {
+fn of_dimension(dimension: usize, selection: &Selection) -> Result<(String, Chart), String> {
     let mut table = String::from(
         "| kernel | h/∆s | lattice | stability | variation | closest pair / ∆s | evaluations |\n|---|---|---|---|---|---|---|\n",
     );
@@ -95,14 +109,14 @@ fn of_dimension(dimension: usize, settings: &Settings) -> Result<(String, Chart)
     for kernel in KERNELS {
         let mut points = Vec::new();
         for h in H_OVER_SPACING {
-            if settings.quick && h != 1.2 {
+            if selection.quick && h != 1.2 {
                 continue;
             }
             for lattice in Lattice::ALL
                 .into_iter()
                 .filter(|l| l.dimension() == dimension)
             {
-                let trial = attempt(lattice, kernel, h, settings)?;
+                let trial = attempt(lattice, kernel, h, selection)?;
                 let is_taken = Lattice::auto(dimension, kernel, h) == lattice;
                 if is_taken {
                     points.push([h, 100.0 * trial.variation]);
@@ -143,7 +157,7 @@ fn attempt(
     lattice: Lattice,
     kernel: KernelKind,
     h: f64,
-    settings: &Settings,
+    selection: &Selection,
 ) -> Result<Trial, String> {
     let mut trial = Trial {
         lattice,
@@ -153,7 +167,7 @@ fn attempt(
         evaluations: 0,
     };
     for (name, spacing) in SCENES[lattice.dimension() - 2] {
-        let Some(mut scene) = load(name, settings)? else {
+        let Some(mut scene) = load(name, selection)? else {
             continue;
         };
         scene.spacing = spacing;

@@ -11,7 +11,9 @@ use sphpack::{BAD_INPUT, Error, Scene, plan};
 
 use super::random::Random;
 use super::{garble, generate, in_parallel};
-use crate::{marks, root};
+use crate::arguments::Arguments;
+use crate::marks;
+use crate::workspace::root;
 
 /// A scene of a few hundred bytes must not take longer to be read or planned, on a slow machine.
 const MOST_TIME: Duration = Duration::from_secs(10);
@@ -34,9 +36,9 @@ const BLOCK: usize = 256;
 /// What to run.
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
-    files: usize,
-    seed: u64,
-    write: bool,
+    pub(crate) files: usize,
+    pub(crate) seed: u64,
+    pub(crate) write: bool,
 }
 
 impl Settings {
@@ -48,27 +50,15 @@ impl Settings {
         }
     }
 
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self::new(1000);
-        let mut arguments = arguments.iter();
-        while let Some(name) = arguments.next() {
-            if name == "--write" {
-                settings.write = true;
-                continue;
-            }
-            let value = arguments.next().ok_or(format!("{name} needs a value"))?;
-            let wrong = |_| format!("{name} is {value}; it must be a whole number");
-            match name.as_str() {
-                "--scene-files" => settings.files = value.parse().map_err(wrong)?,
-                "--seed" => settings.seed = value.parse().map_err(wrong)?,
-                other => {
-                    return Err(format!(
-                        "fuzz --scene-files does not know {other}; see cargo xtask help"
-                    ));
-                }
-            }
-        }
-        Ok(settings)
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &["--scene-files N", "--seed N", "--write"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        Ok(Self {
+            files: arguments.whole("--scene-files")?.unwrap_or(1000),
+            seed: arguments.whole("--seed")?.unwrap_or(0),
+            write: arguments.has("--write"),
+        })
     }
 }
 

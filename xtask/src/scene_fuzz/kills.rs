@@ -10,16 +10,17 @@ use serde_json::Value;
 
 use super::random::Random;
 use super::{build, generate, trial};
+use crate::arguments::Arguments;
 use crate::marks;
 
 /// What to run.
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
-    kills: usize,
-    seed: u64,
+    pub(crate) kills: usize,
+    pub(crate) seed: u64,
     /// The command, where it is not to be built.
-    program: Option<PathBuf>,
-    write: bool,
+    pub(crate) program: Option<PathBuf>,
+    pub(crate) write: bool,
 }
 
 impl Settings {
@@ -32,24 +33,16 @@ impl Settings {
         }
     }
 
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self::new(200);
-        let mut arguments = arguments.iter();
-        while let Some(name) = arguments.next() {
-            if name == "--write" {
-                settings.write = true;
-                continue;
-            }
-            let value = arguments.next().ok_or(format!("{name} needs a value"))?;
-            let wrong = |_| format!("{name} is {value}; it must be a whole number");
-            match name.as_str() {
-                "--runs" => settings.kills = value.parse().map_err(wrong)?,
-                "--seed" => settings.seed = value.parse().map_err(wrong)?,
-                "--program" => settings.program = Some(PathBuf::from(value)),
-                other => return Err(format!("kills does not know {other}; see cargo xtask help")),
-            }
-        }
-        Ok(settings)
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &["--runs N", "--seed N", "--program FILE", "--write"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        Ok(Self {
+            kills: arguments.whole("--runs")?.unwrap_or(200),
+            seed: arguments.whole("--seed")?.unwrap_or(0),
+            program: arguments.path("--program"),
+            write: arguments.has("--write"),
+        })
     }
 }
 

@@ -25,7 +25,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
-use crate::root;
+use crate::arguments::Arguments;
+use crate::workspace::root;
 use case::Case;
 use judge::Judgement;
 use table::Outcome;
@@ -42,13 +43,13 @@ const MOST_TRIALS: [usize; 2] = [40, 6];
 /// What to run.
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
-    scenes: usize,
-    seed: u64,
+    pub(crate) scenes: usize,
+    pub(crate) seed: u64,
     /// The one scene to run, and to show.
-    only: Option<usize>,
+    pub(crate) only: Option<usize>,
     /// The command, where it is not to be built.
-    program: Option<PathBuf>,
-    write: bool,
+    pub(crate) program: Option<PathBuf>,
+    pub(crate) write: bool,
 }
 
 impl Settings {
@@ -62,29 +63,23 @@ impl Settings {
         }
     }
 
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self::new(500);
-        let mut arguments = arguments.iter();
-        while let Some(name) = arguments.next() {
-            if name == "--write" {
-                settings.write = true;
-                continue;
-            }
-            let value = arguments.next().ok_or(format!("{name} needs a value"))?;
-            let wrong = |_| format!("{name} is {value}; it must be a whole number");
-            match name.as_str() {
-                "--scenes" => settings.scenes = value.parse().map_err(wrong)?,
-                "--seed" => settings.seed = value.parse().map_err(wrong)?,
-                "--number" => settings.only = Some(value.parse().map_err(wrong)?),
-                "--program" => settings.program = Some(PathBuf::from(value)),
-                other => {
-                    return Err(format!(
-                        "fuzz --scenes does not know {other}; see cargo xtask help"
-                    ));
-                }
-            }
-        }
-        Ok(settings)
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &[
+        "--scenes N",
+        "--seed N",
+        "--number N",
+        "--program FILE",
+        "--write",
+    ];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        Ok(Self {
+            scenes: arguments.whole("--scenes")?.unwrap_or(500),
+            seed: arguments.whole("--seed")?.unwrap_or(0),
+            only: arguments.whole("--number")?,
+            program: arguments.path("--program"),
+            write: arguments.has("--write"),
+        })
     }
 }
 

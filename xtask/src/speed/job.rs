@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use sphpack::Scene;
 
-use crate::root;
+use crate::workspace::root;
 
 /// What one run took and gave.
 #[derive(Debug, Clone, Copy)]

@@ -9,8 +9,9 @@ use std::fs;
 
 use sphpack::scene::BandWidth;
 
-use crate::reproduce::{Settings, load};
-use crate::root;
+use crate::selection::Selection;
+use crate::shipped::load;
+use crate::workspace::root;
 
 /// A job with a bar: scene, ∆s, h/∆s, seconds, GiB, repeats, whether it is quick.
 type Job = (
@@ -40,12 +41,12 @@ const FINER: [(&str, [f64; 3]); 2] = [
 const GIB: f64 = (1_u64 << 30) as f64;
 
 /// The tables.
-pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+pub(crate) fn run(selection: &Selection) -> Result<(), String> {
     job::build()?;
-    let jobs = jobs(settings)?;
-    let finer = finer(settings)?;
+    let jobs = jobs(selection)?;
+    let finer = finer(selection)?;
     let pairs = pair_loop::table()?;
-    if settings.write {
+    if selection.write {
         let path = root().join("docs/speed.md");
         let text = format!(
             "# Speed\n\n\
@@ -64,17 +65,17 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     Ok(())
 }
 
-fn jobs(settings: &Settings) -> Result<String, String> {
+fn jobs(selection: &Selection) -> Result<String, String> {
     let mut table = String::from(
         "| scene | ∆s | h/∆s | particles (solid) | seconds (bar) | of them geometry | peak memory, GiB (bar) | evaluations | L∞ |\n\
          |---|---|---|---|---|---|---|---|---|\n",
     );
     print!("{table}");
     for (name, spacing, h, seconds, memory, repeats, quick) in JOBS {
-        if !settings.wants(name, quick) {
+        if !selection.wants(name, quick) {
             continue;
         }
-        let Some(mut scene) = load(name, settings)? else {
+        let Some(mut scene) = load(name, selection)? else {
             continue;
         };
         scene.spacing = spacing;
@@ -99,19 +100,19 @@ fn jobs(settings: &Settings) -> Result<String, String> {
     Ok(table)
 }
 
-fn finer(settings: &Settings) -> Result<String, String> {
+fn finer(selection: &Selection) -> Result<String, String> {
     let mut table = String::from(
         "| scene | band | ∆s | particles | seconds | growth | peak memory, GiB | growth | L∞ |\n|---|---|---|---|---|---|---|---|---|\n",
     );
     print!("\n{table}");
     for (name, spacings) in FINER {
-        if !settings.wants(name, name == "sphere") {
+        if !selection.wants(name, name == "sphere") {
             continue;
         }
         for (band, word) in [(BandWidth::Auto, "auto"), (BandWidth::Full, "full")] {
             let mut before: Option<(f64, job::Run)> = None;
             for spacing in spacings {
-                let Some(mut scene) = load(name, settings)? else {
+                let Some(mut scene) = load(name, selection)? else {
                     continue;
                 };
                 scene.spacing = spacing;

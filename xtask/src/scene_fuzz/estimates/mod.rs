@@ -12,6 +12,7 @@ use sphpack::{Scene, plan};
 use sphpack_packing::pace;
 
 use super::{build, trial};
+use crate::arguments::Arguments;
 use crate::marks;
 use family::Job;
 
@@ -33,32 +34,22 @@ const MOST_SECONDS: f64 = 200.0;
 /// What to run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Settings {
-    write: bool,
-    quick: bool,
+    pub(crate) write: bool,
+    pub(crate) quick: bool,
     /// The command, where it is not to be built.
-    program: Option<PathBuf>,
+    pub(crate) program: Option<PathBuf>,
 }
 
 impl Settings {
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self::default();
-        let mut arguments = arguments.iter();
-        while let Some(name) = arguments.next() {
-            match name.as_str() {
-                "--write" => settings.write = true,
-                "--quick" => settings.quick = true,
-                "--program" => {
-                    let program = arguments.next().ok_or("--program needs a value")?;
-                    settings.program = Some(PathBuf::from(program));
-                }
-                other => {
-                    return Err(format!(
-                        "estimates does not know {other}; see cargo xtask help"
-                    ));
-                }
-            }
-        }
-        Ok(settings)
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &["--quick", "--program FILE", "--write"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        Ok(Self {
+            write: arguments.has("--write"),
+            quick: arguments.has("--quick"),
+            program: arguments.path("--program"),
+        })
     }
 }
 

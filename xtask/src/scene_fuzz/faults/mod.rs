@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 
 use super::build;
 use super::random::Random;
+use crate::arguments::Arguments;
 use crate::marks;
 use desk::{Desk, Reference};
 use table::Row;
@@ -20,13 +21,13 @@ use table::Row;
 /// What to run.
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
-    runs: usize,
-    seed: u64,
+    pub(crate) runs: usize,
+    pub(crate) seed: u64,
     /// Faults whose names hold this.
-    only: Option<String>,
+    pub(crate) only: Option<String>,
     /// The command, where it is not to be built.
-    program: Option<PathBuf>,
-    write: bool,
+    pub(crate) program: Option<PathBuf>,
+    pub(crate) write: bool,
 }
 
 impl Settings {
@@ -40,29 +41,23 @@ impl Settings {
         }
     }
 
-    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut settings = Self::new(500);
-        let mut arguments = arguments.iter();
-        while let Some(name) = arguments.next() {
-            if name == "--write" {
-                settings.write = true;
-                continue;
-            }
-            let value = arguments.next().ok_or(format!("{name} needs a value"))?;
-            let wrong = |_| format!("{name} is {value}; it must be a whole number");
-            match name.as_str() {
-                "--runs" => settings.runs = value.parse().map_err(wrong)?,
-                "--seed" => settings.seed = value.parse().map_err(wrong)?,
-                "--only" => settings.only = Some(value.clone()),
-                "--program" => settings.program = Some(PathBuf::from(value)),
-                other => {
-                    return Err(format!(
-                        "faults does not know {other}; see cargo xtask help"
-                    ));
-                }
-            }
-        }
-        Ok(settings)
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &[
+        "--runs N",
+        "--seed N",
+        "--only FAULT",
+        "--program FILE",
+        "--write",
+    ];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        Ok(Self {
+            runs: arguments.whole("--runs")?.unwrap_or(500),
+            seed: arguments.whole("--seed")?.unwrap_or(0),
+            only: arguments.text("--only"),
+            program: arguments.path("--program"),
+            write: arguments.has("--write"),
+        })
     }
 }
 

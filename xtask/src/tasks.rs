@@ -1,0 +1,379 @@
+//! Every task: its name, what it knows, what it does.
+
+use crate::arguments::Arguments;
+use crate::scene_fuzz::{self, estimates, faults, files, kills};
+use crate::selection::Selection;
+use crate::workspace::root;
+use crate::{
+    balanced, bodies, ci, compare, corpora, draw, fuzz, lattices, reliability, reproduce,
+    round_trip, speed, tidy,
+};
+
+/// What is left to do once the arguments are read.
+type Job = Box<dyn FnOnce() -> Result<(), String>>;
+
+/// One task, or one form of a task.
+pub(crate) struct Task {
+    /// As it is called; of a form that has a flag of its own, `fuzz --scenes`, with the flag.
+    name: &'static str,
+    /// Its flags, as [`Arguments`] reads them.
+    known: &'static [&'static str],
+    /// What it does, line by line.
+    about: &'static [&'static str],
+    read: fn(&Arguments) -> Result<Job, String>,
+}
+
+/// In the order of the usage; of one name the forms with flags come first.
+pub(crate) const TASKS: [Task; 18] = [
+    Task {
+        name: "ci",
+        known: &[],
+        about: &["everything that a change must pass"],
+        read: |_| Ok(Box::new(ci::run)),
+    },
+    Task {
+        name: "tidy",
+        known: &[],
+        about: &["house rules: crate graph, file sizes, names, lints"],
+        read: |_| Ok(Box::new(|| tidy::run(&root()))),
+    },
+    Task {
+        name: "draw",
+        known: draw::Settings::KNOWN,
+        about: &["property tests on new cases, a hundred times as many as cargo test"],
+        read: |given| {
+            let settings = draw::Settings::of(given)?;
+            Ok(Box::new(move || draw::run(settings)))
+        },
+    },
+    Task {
+        name: "fuzz --scenes",
+        known: scene_fuzz::Settings::KNOWN,
+        about: &[
+            "random scenes, packed by the command and judged by brute force;",
+            "--number runs and shows one of them alone,",
+            "--program names the command, where it is not to be built,",
+            "--write also writes docs/reliability.md",
+        ],
+        read: |given| {
+            let settings = scene_fuzz::Settings::of(given)?;
+            Ok(Box::new(move || scene_fuzz::run(&settings)))
+        },
+    },
+    Task {
+        name: "fuzz --scene-files",
+        known: files::Settings::KNOWN,
+        about: &[
+            "damaged scene files for the parser and the plan, in process; 100000 is the long form,",
+            "--write also writes docs/reliability.md",
+        ],
+        read: |given| {
+            let settings = files::Settings::of(given)?;
+            Ok(Box::new(move || files::run(&settings)))
+        },
+    },
+    Task {
+        name: "fuzz",
+        known: fuzz::Settings::KNOWN,
+        about: &[
+            "damaged files (a million) for every reader of bodies: stl, obj, ply, csv, dat, svg",
+        ],
+        read: |given| {
+            let settings = fuzz::Settings::of(given)?;
+            Ok(Box::new(move || fuzz::run(&settings)))
+        },
+    },
+    Task {
+        name: "kills",
+        known: kills::Settings::KNOWN,
+        about: &[
+            "runs of random scenes, killed N times (200) and resumed: they must come to the same bytes;",
+            "--write also writes docs/reliability.md",
+        ],
+        read: |given| {
+            let settings = kills::Settings::of(given)?;
+            Ok(Box::new(move || kills::run(&settings)))
+        },
+    },
+    Task {
+        name: "faults",
+        known: faults::Settings::KNOWN,
+        about: &[
+            "the command where folders, disks, memory, threads, inputs fail it (500 runs): no panic, outputs",
+            "whole or as they were, nothing left behind; --write also writes docs/reliability.md",
+        ],
+        read: |given| {
+            let settings = faults::Settings::of(given)?;
+            Ok(Box::new(move || faults::run(&settings)))
+        },
+    },
+    Task {
+        name: "estimates",
+        known: estimates::Settings::KNOWN,
+        about: &[
+            "what a dry run says of memory and time, beside what packings of every method take;",
+            "--quick packs the small ones, --write also writes docs/reliability.md",
+        ],
+        read: |given| {
+            let settings = estimates::Settings::of(given)?;
+            Ok(Box::new(move || estimates::run(&settings)))
+        },
+    },
+    Task {
+        name: "reliability",
+        known: &[],
+        about: &[
+            "the long forms of random scenes, kills, faults, scene files, estimates; writes docs/reliability.md",
+            "(some hours)",
+        ],
+        read: |_| Ok(Box::new(reliability::run)),
+    },
+    Task {
+        name: "reproduce-paper",
+        known: Selection::KNOWN,
+        about: &[
+            "the figures of paper 001, published beside ours;",
+            "--quick leaves out the long runs,",
+            "--data names the folder with bunny.stl (default: data),",
+            "--write also writes docs/reproduction.md",
+        ],
+        read: |given| {
+            let selection = Selection::of(given)?;
+            Ok(Box::new(move || reproduce::run(&selection)))
+        },
+    },
+    Task {
+        name: "balanced",
+        known: Selection::KNOWN,
+        about: &["the balanced method against its bars; --write also writes docs/balanced.md"],
+        read: |given| {
+            let selection = Selection::of(given)?;
+            Ok(Box::new(move || balanced::run(&selection)))
+        },
+    },
+    Task {
+        name: "compare",
+        known: compare::Settings::KNOWN,
+        about: &[
+            "every method on every scene; one method's rows, printed; or one section alone: 001's",
+            "accelerations, 000's agitators, 004's interface, 004's gaps;",
+            "--data names the folder with 30p30n (default: data),",
+            "--write also writes docs/methods.md, or that section of it",
+        ],
+        read: |given| {
+            let settings = compare::Settings::of(given)?;
+            Ok(Box::new(move || compare::run(&settings)))
+        },
+    },
+    Task {
+        name: "corpora",
+        known: corpora::Settings::KNOWN,
+        about: &[
+            "public collections of body files, read and judged: DIR/airfoils/*.dat, DIR/icons/**/*.svg;",
+            "it needs --data; --write also writes docs/corpora.md",
+        ],
+        read: |given| {
+            let settings = corpora::Settings::of(given)?;
+            Ok(Box::new(move || corpora::run(&settings)))
+        },
+    },
+    Task {
+        name: "lattices",
+        known: lattices::KNOWN,
+        about: &[
+            "stability of every lattice, and packings from it; --write also writes docs/lattices.md",
+        ],
+        read: |given| {
+            let selection = lattices::selection(given);
+            Ok(Box::new(move || lattices::run(&selection)))
+        },
+    },
+    Task {
+        name: "speed",
+        known: Selection::KNOWN,
+        about: &[
+            "the whole job, how it grows, the pair loop against the machine; --write also writes",
+            "docs/speed.md",
+        ],
+        read: |given| {
+            let selection = Selection::of(given)?;
+            Ok(Box::new(move || speed::run(&selection)))
+        },
+    },
+    Task {
+        name: "bodies",
+        known: bodies::Settings::KNOWN,
+        about: &[
+            "bodies in parts at 40 spacings each, judged part by part; --write also writes",
+            "docs/bodies.md",
+        ],
+        read: |given| {
+            let settings = bodies::Settings::of(given)?;
+            Ok(Box::new(move || bodies::run(&settings)))
+        },
+    },
+    Task {
+        name: "round-trip",
+        known: round_trip::Settings::KNOWN,
+        about: &[
+            "particle files of every format, read by numpy, pyvista and meshio;",
+            "--install puts these into target/round-trip/venv first",
+        ],
+        read: |given| {
+            let settings = round_trip::Settings::of(given)?;
+            Ok(Box::new(move || round_trip::run(&settings)))
+        },
+    },
+];
+
+impl Task {
+    /// The name, and the flag of its form where it has one.
+    fn called(&self) -> (&'static str, Option<&'static str>) {
+        match self.name.split_once(' ') {
+            Some((name, form)) => (name, Some(form)),
+            None => (self.name, None),
+        }
+    }
+
+    /// Its lines of the usage.
+    fn usage(&self) -> String {
+        let (name, form) = self.called();
+        let mut head = format!("  {name}");
+        for flag in self.known {
+            let is_form = form.is_some_and(|form| flag.split(' ').next() == Some(form));
+            head += &if is_form {
+                format!(" {flag}")
+            } else {
+                format!(" [{flag}]")
+            };
+        }
+        let about = self.about.iter().map(|line| format!("      {line}\n"));
+        format!("{head}\n{}", about.collect::<String>())
+    }
+}
+
+/// What can be typed.
+pub(crate) fn usage() -> String {
+    let tasks: Vec<String> = TASKS.iter().map(Task::usage).collect();
+    format!("cargo xtask TASK\n\n{}", tasks.concat())
+}
+
+/// What the words ask for, not yet begun.
+pub(crate) fn job(words: &[String]) -> Result<Job, String> {
+    let name = words.first().map_or("", String::as_str);
+    let rest = words.get(1..).unwrap_or_default();
+    let is_asked = |task: &&Task| {
+        let (called, form) = task.called();
+        called == name && form.is_none_or(|form| rest.iter().any(|word| word == form))
+    };
+    let task = (TASKS.iter().find(is_asked))
+        .ok_or_else(|| format!("no task is called {name:?}\n\n{}", usage()))?;
+    (task.read)(&Arguments::read(task.name, task.known, rest)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(line: &str) -> Vec<String> {
+        line.split_whitespace().map(str::to_owned).collect()
+    }
+
+    /// What a task says to a line; nothing where it would run.
+    fn said(line: &str) -> Option<String> {
+        job(&words(line)).err()
+    }
+
+    /// The least that a task, or a form of one, runs with.
+    fn least(task: &Task) -> String {
+        let of_form = match task.called() {
+            (_, Some(_)) => " 7",
+            (_, None) => "",
+        };
+        let needed = if task.name == "corpora" {
+            " --data here"
+        } else {
+            ""
+        };
+        format!("{}{of_form}{needed}", task.name)
+    }
+
+    #[test]
+    fn an_unknown_word_is_answered_by_the_task_that_was_called() {
+        for task in &TASKS {
+            let knows = match task.known.join(", ") {
+                all if all.is_empty() => "it takes no arguments".to_owned(),
+                all => format!("it knows {all}"),
+            };
+            for word in ["--foo", "starfish"] {
+                assert_eq!(
+                    said(&format!("{} {word}", least(task))),
+                    Some(format!(
+                        "cargo xtask {} does not know {word}; {knows}",
+                        task.name
+                    ))
+                );
+            }
+        }
+        let balanced = said("balanced --foo").expect("an answer");
+        assert!(
+            balanced.starts_with("cargo xtask balanced does not know --foo"),
+            "{balanced}"
+        );
+        let none = said("pakc").expect("an answer");
+        assert!(none.starts_with("no task is called \"pakc\""), "{none}");
+    }
+
+    #[test]
+    fn every_task_takes_what_it_knows_and_asks_for_nothing_else() {
+        for task in &TASKS {
+            assert_eq!(said(&least(task)), None, "{}", task.name);
+            for flag in task.known {
+                let given = match flag.split_once(' ') {
+                    Some((flag, "N")) => format!("{flag} 7"),
+                    Some((flag, _)) => format!("{flag} here"),
+                    None => (*flag).to_owned(),
+                };
+                assert_eq!(said(&format!("{} {given}", least(task))), None, "{flag}");
+                if let Some((flag, what)) = flag.split_once(' ') {
+                    let missing = said(&format!("{} {flag}", least(task)));
+                    let expected =
+                        format!("cargo xtask {}: {flag} needs a value, {what}", task.name);
+                    assert_eq!(missing, Some(expected));
+                    if what == "N" {
+                        let wrong = said(&format!("{} {flag} x", least(task)));
+                        let expected = format!("{flag} is x; it must be a whole number");
+                        assert_eq!(wrong, Some(expected));
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_go_together_is_refused() {
+        for line in [
+            "balanced --write --only starfish",
+            "compare --write --method hybrid",
+            "round-trip --install --python python3",
+            "corpora --write",
+        ] {
+            assert!(said(line).is_some(), "{line}");
+        }
+    }
+
+    #[test]
+    fn the_usage_names_every_task_with_all_that_it_knows() {
+        let usage = usage();
+        for task in &TASKS {
+            let (name, form) = task.called();
+            let head = format!("\n  {name}");
+            let mut lines = usage
+                .split(&head)
+                .skip(1)
+                .filter_map(|rest| rest.lines().next());
+            let all = |line: &str| task.known.iter().all(|flag| line.contains(flag));
+            assert!(lines.any(all), "{name} {form:?}");
+        }
+    }
+}
