@@ -279,13 +279,17 @@ fn values_by_hand() {
         (1.0, 15.25 / 256.0, 1365.0 / (512.0 * PI)),
     ];
     let h = 0.7;
-    for (kind, by_hand) in KernelKind::ALL.into_iter().zip([quintic, cubic, c2, c4, c6]) {
+    for (kind, by_hand) in KernelKind::ALL
+        .into_iter()
+        .zip([quintic, cubic, c2, c4, c6])
+    {
         let found = [
             kind.with::<1, _>(h, OriginAndH),
             kind.with::<2, _>(h, OriginAndH),
             kind.with::<3, _>(h, OriginAndH),
         ];
-        for (dimension, (found, (origin, at_h, sigma))) in (1..).zip(found.into_iter().zip(by_hand)) {
+        for (dimension, (found, (origin, at_h, sigma))) in (1..).zip(found.into_iter().zip(by_hand))
+        {
             let scale = sigma / h.powi(dimension);
             for (found, exact) in found.into_iter().zip([origin, at_h]) {
                 let off = found / (scale * exact) - 1.0;
