@@ -96,19 +96,16 @@ impl Cloud {
                 .iter()
                 .map(|word| {
                     let word = word.trim();
-                    Kind::ALL
-                        .into_iter()
-                        .find(|kind| kind.name() == word)
-                        .ok_or_else(|| {
-                            let known = Kind::ALL.map(Kind::name);
-                            Error::input(
-                                path,
-                                format!(
-                                    "no kind of particles is called \"{word}\"; {}",
-                                    crate::scene::advice(word, &known)
-                                ),
-                            )
-                        })
+                    word.parse().map_err(|_| {
+                        let known = Kind::ALL.map(Kind::name);
+                        Error::input(
+                            path,
+                            format!(
+                                "no kind of particles is called \"{word}\"; {}",
+                                crate::scene::advice(word, &known)
+                            ),
+                        )
+                    })
                 })
                 .collect::<Result<_, _>>()?,
         };

@@ -196,6 +196,7 @@ pub enum GeometryError {
 
 impl GeometryError {
     /// The same error with the file's name in front.
+    #[must_use]
     pub fn in_file(self, path: impl AsRef<std::path::Path>) -> Self {
         Self::InFile {
             path: path.as_ref().display().to_string(),

@@ -1,26 +1,8 @@
 //! What a body is: outlines in the plane, meshes and shapes in space, and what every method asks of them.
 //!
-//! ```
-//! use sphpack_geometry::{Ball, Feature, Outline, Surface};
+#![doc = include_str!("../README.md")]
 //!
-//! // Any body answers the same few questions.
-//! let wing = Outline::naca("0015", 1.0)?;
-//! let hit = wing.closest([1.2, 0.0]);
-//! assert_eq!(hit.feature, Feature::Corner); // the trailing edge
-//! assert!((hit.distance - 0.2).abs() < 1e-15 && !wing.inside([1.2, 0.0]));
-//!
-//! // Boundary particles sit half a spacing inside; corners are resolved.
-//! let inset = wing.inset(0.01)?;
-//! assert!(inset.volume() < wing.volume() && inset.features().corners.len() == 1);
-//!
-//! let sphere = Ball::new([0.0; 3], 0.5)?;
-//! assert!((sphere.inset(0.1)?.measure() - 4.0 * std::f64::consts::PI * 0.16).abs() < 1e-12);
-//!
-//! // Evenly spread points, features first.
-//! let points = wing.sample(100)?;
-//! assert_eq!((points.len(), points[0].feature), (100, Feature::Corner));
-//! # Ok::<(), sphpack_geometry::GeometryError>(())
-//! ```
+//! ## Where to find what
 //!
 //! | what | type |
 //! |---|---|
@@ -35,12 +17,11 @@
 //! | distances on a grid, and Booleans of them | [`LevelSet`], [`cut_on_grid`] |
 //! | points: even ([`Surface::sample`]), by a weight, for thin bodies | [`sample_weighted`], [`sample_particles`], [`thickness()`] |
 //! | underneath | [`Bvh`] |
-//! | classical inside tests (000 eq. 14) | [`angle_sum`], [`winding_number`], [`crossing_number`] |
+//! | classical inside tests | [`angle_sum`], [`winding_number`], [`crossing_number`] |
 //!
 //! Invariants: geometry knows no particles and no kernels; bodies are immutable; no input makes it panic, and no bytes
 //! make a reader run on or take more memory than in proportion to them; equal input gives equal bits, whatever the
-//! number of threads. Lengths are scene units. Papers are cited by number: 000 and 001 are the packing papers of this
-//! project.
+//! number of threads. Lengths are scene units: those of the caller's numbers.
 
 mod bvh;
 mod continued;

@@ -7,6 +7,8 @@ use sphpack_neighbors::{Bounds, Domain};
 
 use crate::GeometryError;
 
+mod pointers;
+
 /// The point of a surface that is nearest to some query point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closest<const D: usize> {
@@ -42,7 +44,24 @@ pub struct Features<const D: usize> {
 
 /// A closed surface: the boundary of a body. Curves in 2-D, surfaces in 3-D.
 ///
-/// Implementations are immutable and cheap to query from many threads at once.
+/// Implementations are immutable and cheap to query from many threads at once. References, boxes and [`Arc`]s of a
+/// surface are surfaces too.
+///
+/// ```
+/// use std::sync::Arc;
+/// use sphpack_geometry::{Ball, Surface};
+///
+/// /// The part of its bounding box that a body fills.
+/// fn share<const D: usize>(body: impl Surface<D>) -> f64 {
+///     body.volume() / body.bounds().volume()
+/// }
+///
+/// let ball = Ball::new([0.0; 3], 2.0)?;
+/// let shared: Arc<dyn Surface<3>> = Arc::new(ball);
+/// assert!((share(&ball) - std::f64::consts::PI / 6.0).abs() < 1e-12);
+/// assert_eq!(share(&shared), share(ball));
+/// # Ok::<(), sphpack_geometry::GeometryError>(())
+/// ```
 pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
     /// The nearest point of the surface, with the signed distance.
     fn closest(&self, p: [f64; D]) -> Closest<D>;

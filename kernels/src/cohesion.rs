@@ -47,12 +47,20 @@ impl<const D: usize> Profile<D> for CohesionProfile {
     }
 }
 
-/// The cohesion profile of Akinci et al. (2013), in the form of paper 001 eq. 29.
+/// The cohesion profile of Akinci et al. (2013), in the form of Negi & Ramachandran (2021), eq. 29.
 ///
 /// With s = r/R and R the **support radius** (not a smoothing length):
 /// C = 32/(π R^D) · (1−s)³s³ for ½ < s ≤ 1 and 32/(π R^D) · (2(1−s)³s³ − 1/64) for s ≤ ½.
 /// It is negative (repels) near the origin, positive (attracts) farther out, and not a smoothing kernel: it does not
 /// integrate to one and its slope jumps at s = 0.
+///
+/// ```
+/// use sphpack_kernels::Cohesion;
+///
+/// let c = Cohesion::<3>::new(0.5); // zero from r = 0.5 on
+/// assert!(c.value(0.05) < 0.0 && c.value(0.25) > 0.0);
+/// assert_eq!(c.value(0.5), 0.0);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cohesion<const D: usize> {
     support: f64,

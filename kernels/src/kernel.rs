@@ -8,6 +8,17 @@ use crate::Number;
 /// A radial smoothing kernel in `D` dimensions, fixed to a smoothing length.
 ///
 /// Distances and smoothing lengths share a unit; values have that unit to the power −D.
+///
+/// ```
+/// use sphpack_kernels::{Cubic, Kernel};
+///
+/// let w = Cubic::<3>::new(0.2);
+/// let (value, slope_over_r) = w.value_and_slope_over_r(0.1 * 0.1);
+/// assert!((value - w.value(0.1)).abs() < 1e-12 * value);
+/// assert!((0.1 * slope_over_r - w.slope(0.1)).abs() < 1e-12 * value / 0.2);
+/// // ∇W points to where W is larger: from x_i towards x_j.
+/// assert!(w.gradient([0.1, 0.0, 0.0])[0] < 0.0);
+/// ```
 pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
     /// The shape, in units of h. Pair loops work with it and scale sums instead of terms: W = [`Kernel::scale`] · w(q),
     /// dW/dr = [`Kernel::scale`] / h · w'(q).

@@ -6,6 +6,16 @@ use std::str::FromStr;
 use crate::{Cubic, Kernel, Quintic, WendlandC2, WendlandC4, WendlandC6};
 
 /// The name of a smoothing kernel, as scenes write it.
+///
+/// ```
+/// use sphpack_kernels::KernelKind;
+///
+/// let kind: KernelKind = "wendland-c2".parse()?;
+/// assert_eq!(kind, KernelKind::WendlandC2);
+/// assert_eq!((kind.to_string(), kind.support_over_h()), ("wendland-c2".to_owned(), 2.0));
+/// assert!("gauss".parse::<KernelKind>().is_err());
+/// # Ok::<(), sphpack_kernels::UnknownKernel>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum KernelKind {
     /// [`Quintic`], `"quintic"`.

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use crate::Number;
 use crate::kernel::{PIECES, Profile, Scaled, below, per_dimension};
 
-/// The quintic spline M₆, support 3h (paper 001 eq. 14; σ₃ of paper 000 eq. 3 is a misprint).
+/// The quintic spline M₆, support 3h (Negi & Ramachandran 2021, eq. 14; σ₃ in eq. 3 of their preprint is a
+/// misprint).
 ///
 /// w(q) = (3−q)⁵₊ − 6(2−q)⁵₊ + 15(1−q)⁵₊ with σ = 1/120, 7/(478π), 1/(120π).
 pub type Quintic<const D: usize> = Scaled<QuinticProfile, D>;

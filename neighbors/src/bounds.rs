@@ -3,6 +3,15 @@
 use crate::point;
 
 /// An axis-aligned box, `min` and `max` included; empty where some `min > max`.
+///
+/// ```
+/// use sphpack_neighbors::Bounds;
+///
+/// let bounds = Bounds::of(&[[0.0, 1.0], [2.0, -1.0], [1.0, 0.0]]);
+/// assert_eq!((bounds.size(), bounds.center()), ([2.0, 2.0], [1.0, 0.0]));
+/// assert!(bounds.grown(0.5).contains([2.25, 0.0]) && !bounds.contains([2.25, 0.0]));
+/// assert!(Bounds::<2>::EMPTY.is_empty());
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds<const D: usize> {
     /// Lower corner, scene units.
@@ -42,6 +51,7 @@ impl<const D: usize> Bounds<D> {
     }
 
     /// The smallest box around both.
+    #[must_use]
     pub fn union(self, other: Self) -> Self {
         let mut both = self;
         for k in 0..D {
@@ -52,6 +62,7 @@ impl<const D: usize> Bounds<D> {
     }
 
     /// The box grown by `margin` on every side.
+    #[must_use]
     pub fn grown(self, margin: f64) -> Self {
         Self {
             min: self.min.map(|x| x - margin),

@@ -5,6 +5,15 @@ use std::cmp::Ordering;
 use crate::Bounds;
 
 /// An axis-aligned box, each axis open or periodic.
+///
+/// ```
+/// use sphpack_neighbors::Domain;
+///
+/// let domain = Domain::new([0.0, 0.0], [1.0, 2.0]).with_periodic([true, false]);
+/// assert_eq!(domain.wrap([1.25, 5.0]), [0.25, 5.0]); // only periodic axes wrap
+/// assert_eq!(domain.difference([0.875, 0.0], [0.125, 0.0]), [-0.25, 0.0]);
+/// assert_eq!(domain.clamp([1.25, 5.0]), [1.25, 2.0]);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Domain<const D: usize> {
     /// The box, scene units.
@@ -23,6 +32,7 @@ impl<const D: usize> Domain<D> {
     }
 
     /// The same box with the given axes periodic.
+    #[must_use]
     pub fn with_periodic(self, periodic: [bool; D]) -> Self {
         Self { periodic, ..self }
     }

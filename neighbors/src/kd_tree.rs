@@ -7,6 +7,18 @@ use kiddo::{ImmutableKdTree, SquaredEuclidean};
 
 /// A kd-tree over points that stand still: nearest points, and points within a radius. Built in O(n log n), queried in
 /// O(log n + answers). Many coincident points are fine.
+///
+/// ```
+/// use sphpack_neighbors::KdTree;
+///
+/// let tree = KdTree::new(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 3.0, 0.0]])?;
+/// let hit = tree.nearest([0.8, 0.0, 0.0]).expect("the tree has points");
+/// assert_eq!(hit.index, 1);
+/// assert!((hit.distance - 0.2).abs() < 1e-12);
+/// assert_eq!(tree.within([0.0; 3], 1.0).len(), 2);
+/// assert_eq!(tree.nearest_n([0.0; 3], 2)[1].index, 1);
+/// # Ok::<(), sphpack_neighbors::KdTreeError>(())
+/// ```
 pub struct KdTree<const D: usize> {
     /// `None` for no points: the library answers queries on an empty tree with a sentinel.
     tree: Option<ImmutableKdTree<f64, D>>,
@@ -32,6 +44,7 @@ pub struct Found {
 
 /// Why a tree cannot be built.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum KdTreeError {
     /// A coordinate is NaN or infinite.
     NotFinite {

@@ -1,15 +1,6 @@
 //! Who is near whom: neighbours of particles in two and three dimensions.
 //!
-//! - [`CellList`]: for sets that move. Flat arrays, a skin so that one list lasts several steps, optional periodic
-//!   axes; the pair loop runs over blocks of [`LANES`] particles against their shared candidates.
-//! - [`KdTree`]: for sets that stand still. Nearest points and points within a radius.
-//! - [`point`], [`Bounds`], [`Domain`]: arithmetic on `[f64; D]`, boxes, boxes with periodic axes.
-//! - [`Odometer`], [`place_of`]: loops over the places of a grid.
-//! - [`gauss`], [`random`]: nodes of a rule for integrals; numbers that look random.
-//! - [`words`]: places and boxes as people read them.
-//!
-//! Invariants: the answer never depends on the number of threads; a list that is up to date is not built again, and
-//! using one does not allocate.
+#![doc = include_str!("../README.md")]
 
 mod block;
 mod bounds;

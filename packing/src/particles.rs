@@ -1,5 +1,8 @@
 //! Particles as a structure of arrays.
 
+use std::fmt;
+use std::str::FromStr;
+
 /// How a particle may move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
@@ -35,6 +38,28 @@ impl Kind {
     /// Whether the particle may move at all.
     pub fn is_mobile(self) -> bool {
         matches!(self, Self::Free | Self::Boundary)
+    }
+}
+
+/// A kind's name that is none.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no kind of particles is called \"{0}\"; there are free, boundary, fixed, frozen")]
+pub struct UnknownKind(pub String);
+
+impl FromStr for Kind {
+    type Err = UnknownKind;
+
+    fn from_str(name: &str) -> Result<Self, UnknownKind> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.name() == name)
+            .ok_or_else(|| UnknownKind(name.to_owned()))
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

@@ -1,4 +1,4 @@
-//! The SPH procedure of paper 001 §3.1.7.
+//! The SPH procedure of Negi & Ramachandran (2021), section 3.1.7.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use sphpack_neighbors::KdTree;
 
 use crate::labels::{Labels, SeparationError, check, combine};
 
-/// Labels particles as paper 001 §3.1.7 does: those within `reach` of a surface by its exact closest point (steps 1
+/// Labels particles as Negi & Ramachandran (2021), section 3.1.7, do: those within `reach` of a surface by its exact closest point (steps 1
 /// and 2, with the surface in place of its nearest node, whose averaged normal misleads at sharp tips), the others by
 /// a flood outward from that layer (step 3), each from a neighbour within `reach` that has its label.
 ///

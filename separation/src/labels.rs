@@ -1,10 +1,20 @@
 //! Labels, and the plain way to get them.
 
+use std::fmt;
+use std::str::FromStr;
 use std::sync::Arc;
 
 use sphpack_geometry::Surface;
 
 /// What a particle is part of.
+///
+/// ```
+/// use sphpack_separation::Side;
+///
+/// assert_eq!("solid".parse(), Ok(Side::Solid));
+/// assert_eq!(Side::Fluid.to_string(), "fluid");
+/// assert!("void".parse::<Side>().is_err());
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Side {
     /// Part of a body.
@@ -23,6 +33,31 @@ impl Side {
             Self::Solid => "solid",
             Self::Fluid => "fluid",
         }
+    }
+}
+
+/// A side's name that is none.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no side is called \"{0}\"; there are solid, fluid")]
+pub struct UnknownSide(
+    /// The name that was asked for.
+    pub String,
+);
+
+impl FromStr for Side {
+    type Err = UnknownSide;
+
+    fn from_str(name: &str) -> Result<Self, UnknownSide> {
+        Self::ALL
+            .into_iter()
+            .find(|side| side.name() == name)
+            .ok_or_else(|| UnknownSide(name.to_owned()))
+    }
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 
@@ -133,6 +168,20 @@ pub(crate) fn combine(on_surface: &[Option<u16>], held: impl Iterator<Item = Vec
 
 /// Asks every surface about every particle. `on_surface[i]` names the surface that particle `i` sits on, whose body it
 /// belongs to. O(n · cost of an inside test), parallel.
+///
+/// ```
+/// use std::sync::Arc;
+/// use sphpack_geometry::{Cuboid, Surface};
+/// use sphpack_separation::separate_by_inside_tests;
+///
+/// let left: Arc<dyn Surface<3>> = Arc::new(Cuboid::new([0.0; 3], [1.0; 3])?);
+/// let right: Arc<dyn Surface<3>> = Arc::new(Cuboid::new([1.0, 0.0, 0.0], [2.0, 1.0, 1.0])?);
+/// let points = [[0.5; 3], [1.0, 0.5, 0.5], [1.5, 0.5, 0.5]];
+/// // The second point sits on the surface of the second body, so it belongs to that.
+/// let labels = separate_by_inside_tests(&points, &[None, Some(1), None], &[left, right])?;
+/// assert_eq!(labels.body, [Some(0), Some(1), Some(1)]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// A [`SeparationError`] for slices that do not fit together or positions that are not finite.

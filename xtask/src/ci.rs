@@ -1,5 +1,7 @@
 //! Everything that a change must pass, in the order of what fails soonest.
 
+use std::fs;
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
@@ -42,6 +44,20 @@ pub(crate) fn run() -> Result<(), String> {
     deny()?;
     // The README's test command.
     cargo(&["test", "--workspace"], &[])?;
+    examples()?;
+    // What would be published is complete: every file that is included, licences too.
+    cargo(
+        &[
+            "package",
+            "--workspace",
+            "--exclude",
+            "xtask",
+            "--no-verify",
+            "--allow-dirty",
+            "--offline",
+        ],
+        &[],
+    )?;
     let quick = Selection {
         quick: true,
         ..Selection::default()
@@ -53,6 +69,49 @@ pub(crate) fn run() -> Result<(), String> {
     kills::run(&kills::Settings::new(KILLS))?;
     faults::run(&faults::Settings::new(FAULTS))?;
     files::run(&files::Settings::new(SCENE_FILES))
+}
+
+/// Runs every example with what it takes when asked for nothing. The tests have built them, beside this program; `cargo run`
+/// would build the libraries below them anew, with the features that one crate alone asks for.
+fn examples() -> Result<(), String> {
+    cargo(&["build", "--workspace", "--examples"], &[])?;
+    let own = std::env::current_exe().map_err(|error| format!("this program: {error}"))?;
+    let built = own.with_file_name("examples");
+    for room in ["kernels", "neighbors", "pairs", "geometry", "separation"] {
+        for example in example_names(&root().join(room).join("examples"))? {
+            eprintln!("── the example {example} of {room}");
+            let program = built
+                .join(&example)
+                .with_extension(std::env::consts::EXE_EXTENSION);
+            let said = Command::new(&program)
+                .output()
+                .map_err(|error| format!("{}: {error}", program.display()))?;
+            if !said.status.success() {
+                let words = String::from_utf8_lossy(&said.stderr);
+                return Err(format!("the example {example} of {room} failed: {words}"));
+            }
+            if said.stdout.is_empty() {
+                return Err(format!("the example {example} of {room} says nothing"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The programs in a folder, by name.
+fn example_names(folder: &Path) -> Result<Vec<String>, String> {
+    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut names: Vec<String> = entries
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "rs"))
+        .filter_map(|path| path.file_stem()?.to_str().map(str::to_owned))
+        .collect();
+    names.sort_unstable();
+    if names.is_empty() {
+        return Err(format!("{} has no examples", folder.display()));
+    }
+    Ok(names)
 }
 
 /// Licences, versions and sources of what the project builds on, where cargo-deny is installed; advisories too where their

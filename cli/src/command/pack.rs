@@ -21,7 +21,7 @@ use crate::picture::{PictureFormat, Subject, draw};
 use crate::plan::{available_bytes, dimension, plan};
 use crate::report::peak_memory_bytes;
 use crate::run::{Options, Outcome, run as pack};
-use crate::scene::{METHODS, Method, Scene, advice};
+use crate::scene::{Method, Scene};
 use crate::surroundings::surrounded;
 use crate::table::Table;
 
@@ -132,13 +132,8 @@ fn scene(arguments: &PackArguments) -> Result<Scene, Error> {
         scene
     };
     if let Some(name) = &arguments.method {
-        scene.packing.method = Method::from_name(name).ok_or_else(|| {
-            let known = METHODS.map(|info| info.name);
-            Error::Usage(format!(
-                "--method: no method is called \"{name}\"; {}",
-                advice(name, &known)
-            ))
-        })?;
+        scene.packing.method = (name.parse::<Method>())
+            .map_err(|unknown| Error::Usage(format!("--method: {unknown}")))?;
     }
     if let Some(seed) = arguments.seed {
         scene.packing.seed = seed;

@@ -1,8 +1,13 @@
 //! The methods that a scene can name.
 
+use std::fmt;
+use std::str::FromStr;
+
 use serde::{Deserialize, Serialize};
 use sphpack_kernels::KernelKind;
 use sphpack_packing::{Lattice, Work};
+
+use super::advice;
 
 /// How particles are settled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -239,14 +244,6 @@ impl Method {
         self.info().kernel
     }
 
-    /// The method called `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        METHODS
-            .iter()
-            .find(|info| info.name == name)
-            .map(|info| info.method)
-    }
-
     /// The names of the methods that this version has.
     pub fn available() -> Vec<&'static str> {
         METHODS
@@ -254,5 +251,40 @@ impl Method {
             .filter(|info| info.is_available)
             .map(|info| info.name)
             .collect()
+    }
+}
+
+/// A method's name that is none.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnknownMethod(
+    /// The name that was asked for.
+    pub String,
+);
+
+impl fmt::Display for UnknownMethod {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let known = METHODS.map(|info| info.name);
+        let advice = advice(&self.0, &known);
+        write!(f, "no method is called \"{}\"; {advice}", self.0)
+    }
+}
+
+impl std::error::Error for UnknownMethod {}
+
+impl FromStr for Method {
+    type Err = UnknownMethod;
+
+    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
+        METHODS
+            .iter()
+            .find(|info| info.name == name)
+            .map(|info| info.method)
+            .ok_or_else(|| UnknownMethod(name.to_owned()))
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }

@@ -19,7 +19,7 @@ use sphpack_kernels::KernelKind;
 use sphpack_packing::{Complex, Hybrid, Kind, Lattice, MinimiserKind, Settling};
 
 pub use check::Fault;
-pub use method::{METHODS, Method, MethodInfo};
+pub use method::{METHODS, Method, MethodInfo, UnknownMethod};
 pub use named::Inset;
 pub(crate) use named::kernel_by_name;
 pub(crate) use nearest::advice;

@@ -45,7 +45,7 @@ pub(super) mod minimiser {
         from: D,
     ) -> Result<Option<MinimiserKind>, D::Error> {
         let name = String::deserialize(from)?;
-        MinimiserKind::by_name(&name).map(Some).ok_or_else(|| {
+        name.parse().map(Some).map_err(|_| {
             let known = MinimiserKind::ALL.map(MinimiserKind::name);
             D::Error::custom(format!(
                 "no minimiser is called \"{name}\"; {}",

@@ -39,6 +39,16 @@ const PROBE: f64 = 1e-4;
 ///   [`CORNER_DEGREES`](crate::CORNER_DEGREES), within 10⁻⁴ × the depth.
 ///
 /// A query costs two to three queries of the original surface, some ten near creases.
+///
+/// ```
+/// use std::sync::Arc;
+/// use sphpack_geometry::{Ellipsoid, LevelInset, Surface};
+///
+/// let egg = Arc::new(Ellipsoid::new([0.0; 3], [3.0, 2.0, 1.0])?);
+/// let inner = LevelInset::new(egg, 0.25)?; // no ellipsoid any more
+/// assert!((inner.closest([0.0, 0.0, 4.0]).distance - 3.25).abs() < 1e-9);
+/// # Ok::<(), sphpack_geometry::GeometryError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct LevelInset<const D: usize> {
     surface: Arc<dyn Surface<D>>,

@@ -9,7 +9,7 @@ use super::{Mesh, inset};
 use crate::GeometryError;
 use crate::surface::{Closest, Feature, Features, Surface};
 
-/// Directions of the rays of [`Surface::inside`]: +x as in 000, then others that no regular mesh is aligned with.
+/// Directions of the rays of [`Surface::inside`]: +x, then others that no regular mesh is aligned with.
 const RAYS: [[f64; 3]; 4] = [
     [1.0, 0.0, 0.0],
     [0.577_215_66, 0.302_775_63, 0.414_213_56],
@@ -104,7 +104,7 @@ impl Surface<3> for Mesh {
             .map(|(i, _)| self.answer(i, p))
     }
 
-    /// Ray shooting (000, after eq. 14): inside where a ray crosses the surface an odd number of times. A ray that
+    /// Ray shooting: inside where a ray crosses the surface an odd number of times. A ray that
     /// passes too near an edge is replaced by one in another direction; after four the closest point decides.
     fn inside(&self, p: [f64; 3]) -> bool {
         if !self.bounds().contains(p) {

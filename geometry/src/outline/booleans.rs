@@ -25,11 +25,13 @@ impl Outline {
     /// assert!(square(0.0)?.minus(&square(0.0)?).is_none());
     /// # Ok::<(), sphpack_geometry::GeometryError>(())
     /// ```
+    #[must_use]
     pub fn minus(&self, other: &Self) -> Option<Self> {
         self.with(other, OverlayRule::Difference)
     }
 
     /// What both bodies hold; `None` where that is nothing. As exact, and at the same cost, as [`Outline::minus`].
+    #[must_use]
     pub fn intersection(&self, other: &Self) -> Option<Self> {
         self.with(other, OverlayRule::Intersect)
     }
@@ -45,12 +47,14 @@ impl Outline {
     /// assert!(a.intersection(&b).is_some_and(|both| (both.volume() - 0.25).abs() < 1e-12));
     /// # Ok::<(), sphpack_geometry::GeometryError>(())
     /// ```
+    #[must_use]
     pub fn union(&self, other: &Self) -> Option<Self> {
         self.with(other, OverlayRule::Union)
     }
 
     /// The body without its pieces of less than `area` (scene units squared, holes not counted as theirs); `None` where
     /// none is left. O(n) for each piece that is left out.
+    #[must_use]
     pub fn without_crumbs(&self, area: f64) -> Option<Self> {
         let is_small = |points: &&[[f64; 2]]| (0.0..area).contains(&signed_area(points));
         let small: Vec<&[[f64; 2]]> = self.loops().filter(is_small).collect();

@@ -6,8 +6,8 @@ use sphpack_neighbors::point;
 use crate::segment::{cross, side_of};
 
 /// The sum of the signed angles that the sides of the loop subtend at `p`, radians: 2π inside a counter-clockwise
-/// loop, −2π inside a clockwise one, 0 outside (000 eq. 14: inside where the sum exceeds π). O(n) with an arc
-/// tangent per side; a point on the loop gives something between.
+/// loop, −2π inside a clockwise one, 0 outside; inside where the sum exceeds π (Negi & Ramachandran's
+/// preprint, eq. 14). O(n) with an arc tangent per side; a point on the loop gives something between.
 pub fn angle_sum(points: &[[f64; 2]], p: [f64; 2]) -> f64 {
     let mut sum = 0.0;
     for (i, &a) in points.iter().enumerate() {

@@ -50,7 +50,7 @@ pub struct Outline {
     sides: Vec<Segment>,
     /// End point of side `i`.
     next: Vec<u32>,
-    /// 001 eq. 10.
+    /// Negi & Ramachandran (2021), eq. 10.
     node_normals: Vec<[f64; 2]>,
     corner: Vec<bool>,
     bvh: Bvh<2>,
@@ -172,13 +172,14 @@ impl Outline {
         &self.points
     }
 
-    /// Outward unit normal at each point of [`Outline::points`]: the mean of the two sides' normals (001 eq. 10,
-    /// which needs counter-clockwise order).
+    /// Outward unit normal at each point of [`Outline::points`]: the mean of the two sides' normals (Negi &
+    /// Ramachandran 2021, eq. 10, which needs counter-clockwise order).
     pub fn node_normals(&self) -> &[[f64; 2]] {
         &self.node_normals
     }
 
     /// The outline scaled, rotated and moved.
+    #[must_use]
     pub fn transformed(&self, by: &Similarity<2>) -> Self {
         Self::assemble(
             self.loops()

@@ -8,7 +8,7 @@ use crate::GeometryError;
 use crate::sampling::{extent, nodes};
 
 impl Outline {
-    /// r(θ) = `radius` (1 + `amplitude` cos(`arms` θ)) about `center`: the starfish of 000 fig. 13 and 001 fig. 17
+    /// r(θ) = `radius` (1 + `amplitude` cos(`arms` θ)) about `center`: the starfish of Negi & Ramachandran (2021), fig. 17
     /// (the papers give no formula; this one matches their pictures with amplitude 0.25 and 5 arms). Sampled within
     /// [`SAGITTA_OVER_SIZE`](crate::SAGITTA_OVER_SIZE) of its size.
     ///
@@ -104,7 +104,7 @@ impl Outline {
         Self::polygon(&points)
     }
 
-    /// A wall whose upper side is a triangular wave: the zig-zag of 001 figs. 14–16. The body fills
+    /// A wall whose upper side is a triangular wave: the zig-zag of Negi & Ramachandran (2021), figs. 14–16. The body fills
     /// −`width`/2 ≤ x ≤ `width`/2 from y = −`height` up to the wave, which swings by ±`amplitude` about y = 0 in
     /// `teeth` whole periods, rising first from the right; all scene units. `zigzag(2.0, 1.0, 0.25, 2)` has right
     /// angles at its teeth both ways.

@@ -24,6 +24,18 @@ const CROWDED: f64 = 0.7;
 ///
 /// Numbers in parts of the surface are right within a few per cent. Deterministic, as [`Surface::sample`].
 ///
+/// ```
+/// use sphpack_geometry::{Ball, Closest, sample_weighted};
+///
+/// // Three times as many points on the right half as on the left.
+/// let ball = Ball::new([0.0; 3], 1.0)?;
+/// let weight = |hit: &Closest<3>| if hit.point[0] > 0.0 { 3.0 } else { 1.0 };
+/// let points = sample_weighted(&ball, 400, &weight)?;
+/// let right = points.iter().filter(|hit| hit.point[0] > 0.0).count();
+/// assert!(right > 280 && right < 320, "{right}");
+/// # Ok::<(), sphpack_geometry::GeometryError>(())
+/// ```
+///
 /// # Errors
 /// As [`Surface::sample`], and [`GeometryError::BadParameter`] where no weight is positive.
 pub fn sample_weighted<const D: usize>(

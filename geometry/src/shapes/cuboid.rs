@@ -8,6 +8,16 @@ use crate::GeometryError;
 use crate::surface::{Closest, Feature, Features, Surface};
 
 /// A rectangle (`D` = 2) or box (`D` = 3) along the axes; [`Placed`](crate::Placed) turns it. Every query is O(1).
+///
+/// ```
+/// use sphpack_geometry::{Cuboid, Feature, Surface};
+///
+/// let plate = Cuboid::new([0.0, 0.0, 0.0], [2.0, 1.0, 0.1])?;
+/// assert_eq!(plate.closest([2.5, 0.5, 0.05]).point, [2.0, 0.5, 0.05]);
+/// assert_eq!(plate.closest([2.5, 1.5, 0.05]).feature, Feature::Edge);
+/// assert_eq!(plate.features().corners.len(), 8);
+/// # Ok::<(), sphpack_geometry::GeometryError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cuboid<const D: usize> {
     bounds: Bounds<D>,

@@ -13,6 +13,15 @@ use crate::{GeometryError, Mesh};
 const RIM_SIDES: usize = 360;
 
 /// A circular cylinder with flat ends. Every query is O(1).
+///
+/// ```
+/// use sphpack_geometry::{Cylinder, Feature, Surface};
+///
+/// let rod = Cylinder::new([0.0; 3], [0.0, 0.0, 2.0], 0.5)?;
+/// assert!((rod.closest([1.0, 0.0, 1.0]).distance - 0.5).abs() < 1e-12);
+/// assert_eq!(rod.closest([1.0, 0.0, 2.5]).feature, Feature::Edge);
+/// # Ok::<(), sphpack_geometry::GeometryError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
     start: [f64; 3],

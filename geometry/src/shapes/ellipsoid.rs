@@ -14,6 +14,15 @@ const MAX_STEPS: usize = 100;
 
 /// An ellipse (`D` = 2) or ellipsoid (`D` = 3) along the axes; [`Placed`](crate::Placed) turns it. The closest point
 /// is exact to rounding and costs some ten iterations.
+///
+/// ```
+/// use sphpack_geometry::{Ellipsoid, Surface};
+///
+/// let egg = Ellipsoid::new([0.0; 3], [3.0, 2.0, 1.0])?;
+/// assert!((egg.closest([0.0, 0.0, 4.0]).distance - 3.0).abs() < 1e-12);
+/// assert!((egg.volume() - 8.0 * std::f64::consts::PI).abs() < 1e-12);
+/// # Ok::<(), sphpack_geometry::GeometryError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ellipsoid<const D: usize> {
     center: [f64; D],

@@ -10,6 +10,15 @@ use crate::GeometryError;
 use crate::surface::{Closest, Feature, Features, Surface};
 
 /// A torus. Every query is O(1).
+///
+/// ```
+/// use sphpack_geometry::{Surface, Torus};
+///
+/// let ring = Torus::new([0.0; 3], [0.0, 0.0, 1.0], 1.0, 0.25)?;
+/// assert!(ring.inside([1.0, 0.0, 0.2]) && !ring.inside([0.0; 3]));
+/// assert!((ring.closest([0.0; 3]).distance - 0.75).abs() < 1e-12);
+/// # Ok::<(), sphpack_geometry::GeometryError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torus {
     center: [f64; 3],

@@ -200,6 +200,7 @@ impl Sketch {
     /// What is wrong with the loops, every defect with its count and a place, and what the loops are to the body.
     /// Crossings and contacts are looked for after repeated points, spikes and loops without area are left out.
     /// O(n log n) for n points that spread out, and as many meetings.
+    #[must_use]
     pub fn check(&self) -> OutlineReport {
         Survey::new(self).report(self)
     }
@@ -210,6 +211,7 @@ impl Sketch {
     /// way round and none is within another of them; loops that touch are put together by their nesting. Where one of
     /// these cannot be done, none is. Loops of one or two points stay: they may be what is left of a loop that was cut
     /// apart.
+    #[must_use]
     pub fn repaired(&self) -> RepairedSketch {
         let survey = Survey::new(self);
         let mut repaired = RepairedSketch {

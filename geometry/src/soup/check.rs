@@ -200,6 +200,7 @@ pub(super) fn across(points: &[[f64; 3]]) -> ([f64; 3], f64) {
 impl Soup {
     /// What is wrong with the triangles, every defect with its count and a place; and what shells they form.
     /// O(n log n) for triangles that spread out over a surface.
+    #[must_use]
     pub fn check(&self) -> MeshReport {
         self.report(&Survey::new(self))
     }

@@ -184,6 +184,7 @@ impl Soup {
     ///
     /// A shell within a solid one that faces inward is taken for a cavity, one that faces outward for redundant; an
     /// outermost shell that faces inward is turned together with everything in it.
+    #[must_use]
     pub fn repaired(&self, limit: HoleLimit) -> Repaired {
         let mut soup = self.clone();
         let mut done = Vec::new();

@@ -65,6 +65,17 @@ impl Soup {
     /// a fraction of a cell, rounds edges within a cell where shells or holes meet, and loses parts and gaps thinner
     /// than a cell. A [`Soup::repaired`] soup is wrapped, so that triangles agree where they can.
     ///
+    /// ```
+    /// use sphpack_geometry::{Soup, Surface};
+    ///
+    /// // A tetrahedron that lacks its largest side.
+    /// let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let sides = [[0, 2, 1], [0, 1, 3], [0, 3, 2]].map(|side| side.map(|k: usize| corners[k]));
+    /// let closed = Soup::from_loose(&sides)?.wrapped(0.05)?;
+    /// assert!(closed.mesh.inside([0.1; 3]) && !closed.mesh.inside([0.5; 3]));
+    /// # Ok::<(), sphpack_geometry::GeometryError>(())
+    /// ```
+    ///
     /// Costs a winding number and a nearest triangle, O(log n), for each node near the surface, and memory as
     /// [`LevelSet`] says.
     ///

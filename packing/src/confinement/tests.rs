@@ -62,7 +62,6 @@ fn worst<const D: usize>(
         worst.0 = worst.0.max((confinement.gamma(x) - value).abs());
         worst.1 = worst.1.max(off);
     }
-    println!("{worst:?}, {} facets", confinement.facets.len());
     worst
 }
 

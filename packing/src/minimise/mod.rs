@@ -45,7 +45,9 @@ pub use landscape::Landscape;
 pub use lbfgs::Lbfgs;
 pub use settling::{Finish, Settling};
 
+use std::fmt;
 use std::io::{self, Write};
+use std::str::FromStr;
 
 use crate::Damaged;
 
@@ -59,7 +61,7 @@ pub enum Step {
 }
 
 /// Goes down an energy, step by step.
-pub trait Minimiser<const D: usize>: std::fmt::Debug {
+pub trait Minimiser<const D: usize>: fmt::Debug {
     /// One step from where the landscape stands, which costs one evaluation or, in a line search, a few. Leaves the
     /// landscape evaluated where the particles are.
     fn step(&mut self, landscape: &mut Landscape<'_, D>) -> Step;
@@ -111,11 +113,6 @@ impl MinimiserKind {
         }
     }
 
-    /// The minimiser of a name.
-    pub fn by_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
-    }
-
     /// A minimiser with its defaults.
     pub fn build<const D: usize>(self) -> Box<dyn Minimiser<D>> {
         match self {
@@ -123,5 +120,27 @@ impl MinimiserKind {
             Self::Fire => Box::new(Fire::default()),
             Self::Lbfgs => Box::new(Lbfgs::default()),
         }
+    }
+}
+
+/// A minimiser's name that is none.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no minimiser is called \"{0}\"; there are damped, fire, lbfgs")]
+pub struct UnknownMinimiser(pub String);
+
+impl FromStr for MinimiserKind {
+    type Err = UnknownMinimiser;
+
+    fn from_str(name: &str) -> Result<Self, UnknownMinimiser> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.name() == name)
+            .ok_or_else(|| UnknownMinimiser(name.to_owned()))
+    }
+}
+
+impl fmt::Display for MinimiserKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }

@@ -202,9 +202,17 @@ fn the_energy_goes_around_a_periodic_box() {
 }
 
 #[test]
+fn names_that_are_none_are_refused_with_those_that_are() {
+    let error = "newton".parse::<MinimiserKind>().expect_err("no minimiser");
+    for kind in MinimiserKind::ALL {
+        assert!(error.to_string().contains(kind.name()), "{error}");
+    }
+}
+
+#[test]
 fn every_minimiser_goes_down_and_holds_what_is_held() {
     for kind in MinimiserKind::ALL {
-        assert_eq!(MinimiserKind::by_name(kind.name()), Some(kind));
+        assert_eq!(kind.to_string().parse(), Ok(kind));
         with_landscape::<2, _>(0.2, 7, |landscape| {
             let (energy, residual) = (landscape.energy(), landscape.residual());
             let before = landscape.particles().clone();
@@ -223,29 +231,81 @@ fn every_minimiser_goes_down_and_holds_what_is_held() {
     }
 }
 
+/// Shaken particles, of which those on the left are levelled, with this κ.
+fn with_the_left_levelled<R>(
+    stiffness: f64,
+    work: impl FnOnce(&mut Landscape<'_, 2>, &[bool]) -> R,
+) -> R {
+    let (problem, mut particles, surfaces) = shaken::<2>(0.1, 8);
+    let mut forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let is_left: Vec<bool> = particles.position.iter().map(|p| p[0] < 0.4).collect();
+    forces.levelled = is_left.clone();
+    forces.levelling = Levelling::new(stiffness, 1.0);
+    let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
+    work(&mut landscape, &is_left)
+}
+
+/// Σ (Γ − 1)² of the particles that `is_asked` names.
+fn unevenness(landscape: &Landscape<'_, 2>, is_asked: impl Fn(usize) -> bool) -> f64 {
+    let particles = landscape.particles();
+    (0..particles.len())
+        .filter(|&i| particles.kind[i] != Kind::Frozen && is_asked(i))
+        .map(|i| (landscape.forces().gamma(i) - 1.0).powi(2))
+        .sum()
+}
+
+/// ½ κ Σ V (Γ − 1)² is the energy of the levelled particles alone, and no force comes from the others.
 #[test]
-fn levelling_acts_where_it_is_told() {
-    with_landscape::<2, _>(0.1, 8, |landscape| {
-        let unevenness = |landscape: &Landscape<'_, 2>| -> f64 {
+fn levelling_acts_on_none_but_those_it_is_told() {
+    const STIFFNESS: f64 = 3.0;
+    let figures = |stiffness: f64| {
+        with_the_left_levelled(stiffness, |landscape, is_left| {
             let particles = landscape.particles();
-            (0..particles.len())
-                .filter(|&i| particles.kind[i] != Kind::Frozen)
-                .map(|i| (landscape.forces().gamma(i) - 1.0).powi(2))
-                .sum()
-        };
-        let settle = |landscape: &mut Landscape<'_, 2>| {
+            let unit = landscape.spacing().powi(2);
+            let of_left: f64 = (0..particles.len())
+                .filter(|&i| is_left[i] && particles.kind[i] != Kind::Frozen)
+                .map(|i| {
+                    let off = landscape.forces().gamma(i) - 1.0;
+                    0.5 * STIFFNESS * particles.volume[i] / unit * off * off
+                })
+                .sum();
+            let support = 3.0 * landscape.smoothing_length();
+            // Who is near a particle that is levelled, or one, and who is not.
+            let is_far: Vec<bool> = (landscape.mobile().iter())
+                .map(|&i| particles.position[i as usize][0] > 0.4 + support)
+                .collect();
+            let force = landscape.force().to_vec();
+            (landscape.energy(), of_left, is_far, force)
+        })
+    };
+    let (without, _, _, plain) = figures(0.0);
+    let (with, of_left, is_far, levelled) = figures(STIFFNESS);
+    assert!(of_left > 1e-3, "{of_left}");
+    let added = with - without;
+    assert!((added / of_left - 1.0).abs() < 1e-9, "{added} {of_left}");
+    let is_same = |i: usize| point::distance(plain[i], levelled[i]) < 1e-12;
+    let far = (0..is_far.len()).filter(|&i| is_far[i]);
+    assert!(far.clone().count() > 10);
+    assert!(far.clone().all(is_same), "a force from afar");
+    let near = (0..is_far.len()).filter(|&i| !is_far[i]);
+    let pushed = near.clone().filter(|&i| !is_same(i)).count();
+    assert!(pushed > near.count() / 2, "{pushed}");
+}
+
+#[test]
+fn levelling_evens_out_where_it_is_told() {
+    let settled = |stiffness: f64| {
+        with_the_left_levelled(stiffness, |landscape, is_left| {
             let mut lbfgs = Lbfgs::default();
             for _ in 0..60 {
                 lbfgs.step(landscape);
             }
-        };
-        settle(landscape);
-        let without = unevenness(landscape);
-        landscape.set_levelling(Levelling::new(30.0, 1.0));
-        settle(landscape);
-        let with = unevenness(landscape);
-        assert!(with < 0.7 * without, "{with} {without}");
-    });
+            [true, false].map(|is_told| unevenness(landscape, |i| is_left[i] == is_told))
+        })
+    };
+    let (without, with) = (settled(0.0), settled(30.0));
+    assert!(with[0] < 0.6 * without[0], "{with:?} {without:?}");
+    assert!(with[1] > 0.9 * without[1], "{with:?} {without:?}");
 }
 
 /// A body in which the pressure is far too high keeps its particles.
