@@ -11,8 +11,8 @@ use sphpack_packing::closest_pair::CROWDED;
 use sphpack_packing::{Depths, Kind};
 use sphpack_separation::Side;
 
-use crate::run::Solution;
 use crate::scene::{Role, Scene};
+use crate::solution::Solution;
 
 /// A particle is on the wrong side of a true surface that is deeper behind it than this, in ∆s.
 const WRONG_SIDE_OVER_SPACING: f64 = 0.1;

@@ -7,6 +7,7 @@ use sphpack_neighbors::{Bounds, Domain, point};
 use sphpack_packing::{DensityQuality, Fields, Kind, Lattice, ResidualQuality};
 
 use crate::Error;
+use crate::dimension::in_dimension;
 use crate::files::Columns;
 use crate::plan::available_bytes;
 
@@ -149,10 +150,7 @@ impl Cloud {
         kernel: KernelKind,
         h_over_spacing: f64,
     ) -> Result<CloudQuality, Error> {
-        match self.dimension {
-            2 => self.measure_in::<2>(spacing, kernel, h_over_spacing),
-            _ => self.measure_in::<3>(spacing, kernel, h_over_spacing),
-        }
+        in_dimension!(self.dimension, D => self.measure_in::<D>(spacing, kernel, h_over_spacing))
     }
 
     fn measure_in<const D: usize>(

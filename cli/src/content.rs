@@ -3,7 +3,7 @@
 use sphpack_neighbors::point;
 use sphpack_packing::{Kind, Problem};
 
-use crate::run::Solution;
+use crate::solution::Solution;
 
 /// How far behind a surface it is asked who is there, in ∆s.
 const BEYOND_OVER_SPACING: f64 = 0.1;

@@ -16,6 +16,20 @@ use crate::methods;
 use crate::precedence::Cuttable;
 use crate::scene::{BodySpec, Scene, Shape};
 
+/// Work whose dimension, 2 or 3, is known only when it runs: the one place where the two ways part.
+macro_rules! in_dimension {
+    ($dimension:expr, $D:ident => $work:expr) => {
+        if $dimension == 2 {
+            const $D: usize = 2;
+            $work
+        } else {
+            const $D: usize = 3;
+            $work
+        }
+    };
+}
+pub(crate) use in_dimension;
+
 /// A body's surface, and its outline for pictures.
 pub(crate) struct Built<const D: usize> {
     /// The true surface, placed.

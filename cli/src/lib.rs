@@ -53,6 +53,7 @@ mod report;
 mod roles;
 mod run;
 pub mod scene;
+mod solution;
 mod surroundings;
 mod table;
 mod units;
@@ -68,6 +69,7 @@ pub use report::{
     BodyReport, Counts, Density, History, MassReport, Report, Residual, SCHEMA, SecondsReport,
     SurfaceReport,
 };
-pub use run::{Options, Outcome, Packing, Solution, run};
+pub use run::{Options, Outcome, run};
 pub use scene::Scene;
+pub use solution::{Packing, Solution};
 pub use table::Table;

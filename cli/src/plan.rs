@@ -8,7 +8,7 @@ use sphpack_packing::{Band, Body, Estimate, FrozenLayout, Kind, PackingError, Pr
 
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
-use crate::dimension::{Built, Dimension, Space};
+use crate::dimension::{Built, Dimension, Space, in_dimension};
 use crate::scene::{BandWidth, Fault, Frozen, Method, Role, Scene, Surroundings};
 use crate::{beyond, methods, overlap, precedence, roles, units};
 
@@ -65,11 +65,7 @@ const READ_BYTES: f64 = 315.0;
 /// Those of [`crate::run`].
 pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
     let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
-    let dimension = dimension(scene)?;
-    match dimension {
-        2 => planned::<2>(scene, allowed_bytes),
-        _ => planned::<3>(scene, allowed_bytes),
-    }
+    in_dimension!(dimension(scene)?, D => planned::<D>(scene, allowed_bytes))
 }
 
 fn planned<const D: usize>(scene: &Scene, allowed_bytes: f64) -> Result<Plan, Error>

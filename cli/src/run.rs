@@ -1,15 +1,15 @@
 //! The way of the data: scene, problem, particles, labels, figures.
 
 use sphpack_neighbors::{point, words};
-use sphpack_packing::{Fields, Kind, Observer, Packed, Problem, Quality, StopReason};
-use sphpack_separation::{Labels, Side};
+use sphpack_packing::{Kind, Observer, StopReason};
+use sphpack_separation::Side;
 
 use std::time::Instant;
 
 use crate::Error;
 use crate::audit::Audit;
 use crate::body_file::ReadBody;
-use crate::dimension::{Dimension, Space};
+use crate::dimension::{Dimension, Space, in_dimension};
 use crate::hydrostatic::AtRest;
 use crate::labels::{Sorted, sort};
 use crate::methods::pack;
@@ -19,6 +19,7 @@ use crate::report::{
     peak_memory_bytes,
 };
 use crate::scene::{Masses, Role, Scene};
+use crate::solution::{Packing, Solution};
 use crate::table::Table;
 use crate::{content, corrected};
 
@@ -30,32 +31,6 @@ const UNSOUND: &str = "unsound";
 pub struct Options {
     /// The most memory that a packing may be estimated to need, bytes; `None` is what the machine has free.
     pub memory_bytes: Option<f64>,
-}
-
-/// A packed scene in its own dimension.
-#[derive(Debug, Clone)]
-pub struct Solution<const D: usize> {
-    /// What was to be packed.
-    pub problem: Problem<D>,
-    /// All particles, and how they came there.
-    pub packed: Packed<D>,
-    /// Which belongs to what; frozen ones are labelled fluid.
-    pub labels: Labels,
-    /// Which of them roles and `fluid.fill` keep.
-    pub keep: Vec<bool>,
-    /// Γ and its gradient as the scene's quality settings ask; zero for frozen particles.
-    pub fields: Fields<D>,
-    /// The figures of these fields.
-    pub quality: Quality,
-}
-
-/// A packed scene in the plane or in space.
-#[derive(Debug, Clone)]
-pub enum Packing {
-    /// 2-D.
-    Plane(Solution<2>),
-    /// 3-D.
-    Space(Solution<3>),
 }
 
 /// Everything that a run gives.
@@ -83,20 +58,17 @@ pub fn run(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
     let allowed = options.memory_bytes.unwrap_or_else(available_bytes);
-    match dimension(scene)? {
-        2 => run_in::<2>(scene, allowed, observer, Packing::Plane),
-        _ => run_in::<3>(scene, allowed, observer, Packing::Space),
-    }
+    in_dimension!(dimension(scene)?, D => run_in::<D>(scene, allowed, observer))
 }
 
 fn run_in<const D: usize>(
     scene: &Scene,
     allowed_bytes: f64,
     observer: &mut dyn Observer,
-    wrap: fn(Solution<D>) -> Packing,
 ) -> Result<Outcome, Error>
 where
     Space<D>: Dimension<D>,
+    Packing: From<Solution<D>>,
 {
     let (prepared, _) = prepare::<D>(scene, allowed_bytes)?;
     let Prepared {
@@ -142,7 +114,7 @@ where
         body.repairs = repairs;
     }
     Ok(Outcome {
-        packing: wrap(solution),
+        packing: solution.into(),
         table,
         loops,
         read,

@@ -4,8 +4,9 @@ use sphpack_neighbors::{Bounds, point};
 use sphpack_packing::{Kind, Packed};
 use sphpack_separation::Side;
 
-use crate::run::{Outcome, Packing};
+use crate::run::Outcome;
 use crate::scene::{Scene, Surroundings};
+use crate::solution::Packing;
 use crate::table::Table;
 
 /// The particles of `rows` and, in place of the frozen ones, their lattice on to the sides of the larger box: fluid that

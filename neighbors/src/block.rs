@@ -98,6 +98,12 @@ impl Blocks {
     /// # Panics
     /// Where `out` is not as long as there are targets.
     pub fn for_each<R: Send>(&self, out: &mut [R], f: impl Fn(Block<'_>, &mut [R]) + Sync) {
+        self.for_each_dyn(out, &f);
+    }
+
+    /// Compiled once for every kind of output, not for every loop: a loop takes microseconds for a block, a call some
+    /// nanoseconds.
+    fn for_each_dyn<R: Send>(&self, out: &mut [R], f: &(dyn Fn(Block<'_>, &mut [R]) + Sync)) {
         assert_eq!(out.len(), self.targets, "one output per target");
         out.par_chunks_mut(BLOCKS_PER_CHUNK * LANES)
             .zip(&self.chunks)

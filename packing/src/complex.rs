@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use crate::confined::Confined;
 use crate::course::Course;
 use crate::forces::Forces;
 use crate::lattice::Lattice;
@@ -171,14 +170,4 @@ fn first_layer<const D: usize>(problem: &Problem<D>, particles: &Particles<D>) -
             is_fluid && is_near(particles.position[i])
         })
         .collect()
-}
-
-/// Moves what the fluid sees of the solids, the last of its particles, to where these are now.
-pub(crate) fn see<const D: usize>(fluid: &mut Confined<'_, D>, solids: &[Confined<'_, D>]) {
-    let count: usize = solids.iter().map(|solid| solid.particles.len()).sum();
-    let begin = fluid.particles.len() - count;
-    let now = solids.iter().flat_map(|solid| &solid.particles.position);
-    for (seen, now) in fluid.particles.position[begin..].iter_mut().zip(now) {
-        *seen = *now;
-    }
 }

@@ -242,3 +242,16 @@ impl<const D: usize> State for Vec<Confined<'_, D>> {
         self.iter_mut().try_for_each(|one| one.load(from))
     }
 }
+
+/// Moves the fluid's ghosts, the last of its particles, to where the solids' particles are now.
+pub(crate) fn update_ghosts<const D: usize>(
+    fluid: &mut Confined<'_, D>,
+    solids: &[Confined<'_, D>],
+) {
+    let count: usize = solids.iter().map(|solid| solid.particles.len()).sum();
+    let begin = fluid.particles.len() - count;
+    let now = solids.iter().flat_map(|solid| &solid.particles.position);
+    for (ghost, now) in fluid.particles.position[begin..].iter_mut().zip(now) {
+        *ghost = *now;
+    }
+}

@@ -262,18 +262,6 @@ impl<const D: usize> Problem<D> {
         self.chosen_lattice().fill(self.domain.bounds, self.spacing)
     }
 
-    /// The volume of every body without the bodies in it that come before, and that of the box without all of them last,
-    /// scene units to the power D.
-    pub fn rooms(&self) -> Vec<f64> {
-        let parts = crate::balanced::parts::Parts::of(self);
-        let room = parts.rooms();
-        let mut rooms = vec![0.0; self.bodies.len() + 1];
-        for (region, room) in room.into_iter().enumerate() {
-            rooms[parts.owner(region)] += room;
-        }
-        rooms
-    }
-
     /// How deep the frozen layer is, scene units: the longer of [`Problem::reach`] and [`Problem::seen_within`].
     pub fn frozen_depth(&self) -> f64 {
         self.reach().max(self.seen_within)

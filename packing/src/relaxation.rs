@@ -5,8 +5,7 @@ use std::time::Instant;
 use sphpack_geometry::{Closest, Surface};
 use sphpack_neighbors::point;
 
-use crate::complex::see;
-use crate::confined::{Bound, Confined};
+use crate::confined::{Bound, Confined, update_ghosts};
 use crate::confinement::Confinement;
 use crate::course::Course;
 use crate::fluid_side::{around_body, tightest};
@@ -129,7 +128,7 @@ impl Relaxation {
                 residual = residual.max(solid.step());
             }
             if interface == Interface::Particles {
-                see(&mut fluid, &solids);
+                update_ghosts(&mut fluid, &solids);
             }
             residual = residual.max(fluid.step());
             is_settled = residual < self.residual_tolerance;

@@ -83,6 +83,7 @@ fn complaints(root: &Path) -> Vec<String> {
                         .display()
                         .to_string();
                     check_source(&shown, &text, &mut complaints);
+                    check_single_places(&shown, &text, &mut complaints);
                 }
                 Err(error) => complaints.push(format!("{}: {error}", path.display())),
             }
@@ -154,6 +155,24 @@ fn check_source(path: &str, text: &str, complaints: &mut Vec<String>) {
     }
 }
 
+/// What ARCHITECTURE.md promises to be in one place.
+fn check_single_places(path: &str, text: &str, complaints: &mut Vec<String>) {
+    // Spelt in two parts, so that this file does not find itself.
+    let kernels = format!("value_and_slope::{}", '<');
+    let may = path.starts_with("kernels/") || path == "pairs/src/walk.rs";
+    if text.contains(&kernels) && !may {
+        complaints.push(format!(
+            "{path} takes kernels to pairs: that is pairs/src/walk.rs, and a term for it"
+        ));
+    }
+    let parts = |line: &str| line.contains("2 =>") && line.contains("::<2>");
+    if path.starts_with("cli/src/") && text.lines().any(parts) {
+        complaints.push(format!(
+            "{path} tells the plane from space: that is in_dimension! in cli/src/dimension.rs"
+        ));
+    }
+}
+
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut open = vec![folder.to_owned()];
@@ -195,5 +214,15 @@ mod tests {
         found.clear();
         check_source("a/utils.rs", &"x\n".repeat(501), &mut found);
         assert_eq!(found.len(), 3, "{found:?}");
+        found.clear();
+        let kernels = format!("P::value_and_slope::{}f64, 0>(r, 1.0)", '<');
+        check_single_places("packing/src/forces.rs", &kernels, &mut found);
+        check_single_places("pairs/src/walk.rs", &kernels, &mut found);
+        check_single_places(
+            "cli/src/plan.rs",
+            "    2 => planned::<2>(scene),",
+            &mut found,
+        );
+        assert_eq!(found.len(), 2, "{found:?}");
     }
 }

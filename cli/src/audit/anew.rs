@@ -6,7 +6,7 @@ use sphpack_kernels::{Kernel, WithKernel};
 use sphpack_neighbors::{Domain, point};
 use sphpack_packing::Kind;
 
-use crate::run::Solution;
+use crate::solution::Solution;
 
 /// Particles that are summed anew, about. A pair list that drops neighbours drops those of many.
 const SOME: usize = 500;

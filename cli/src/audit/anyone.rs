@@ -6,6 +6,7 @@ use sphpack_packing::{ClosestPair, Kind};
 
 use super::Audit;
 use crate::cloud::{Cloud, CloudQuality};
+use crate::dimension::in_dimension;
 
 /// How far from the lattice's Γ anybody's may be: beyond, particles or room are missing.
 const GAMMA_WITHIN: f64 = 0.3;
@@ -17,10 +18,7 @@ impl Audit {
     /// Audits particles of a file, measured at `spacing`. There is no box and there are no bodies to compare with; a file
     /// without frozen particles is measured away from its edge only.
     pub(crate) fn of_cloud(cloud: &Cloud, spacing: f64, quality: &CloudQuality) -> Self {
-        let pair = match cloud.dimension {
-            2 => pair::<2>(cloud, spacing),
-            _ => pair::<3>(cloud, spacing),
-        };
+        let pair = in_dimension!(cloud.dimension, D => pair::<D>(cloud, spacing));
         let density = &quality.density;
         let mut audit = Self::clean(spacing, pair.0, [density.min, density.max]);
         if let Some(ids) = &cloud.id {

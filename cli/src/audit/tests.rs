@@ -5,8 +5,9 @@ use sphpack_separation::Side;
 
 use super::Audit;
 use crate::content;
-use crate::run::{Options, Packing, Solution, run};
+use crate::run::{Options, run};
 use crate::scene::Scene;
+use crate::solution::{Packing, Solution};
 
 const DISC: &str = r#"
 spacing = 0.2

@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 use sphpack_packing::{Keeper, Progress};
 
 use super::arguments::PackArguments;
+use super::duration::duration;
 use super::plain_text::visible;
-use super::progress::duration;
 use crate::Error;
 use crate::checkpoint::{self, Fingerprint, Reached};
 use crate::files::replace;

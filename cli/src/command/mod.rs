@@ -6,6 +6,7 @@
 mod arguments;
 mod at_once;
 mod check;
+mod duration;
 mod init;
 mod interrupt;
 mod keeping;

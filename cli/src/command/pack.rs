@@ -10,9 +10,10 @@ use sphpack_packing::problem::size;
 use sphpack_packing::{Kind, StopReason, pace};
 
 use super::arguments::PackArguments;
+use super::duration::duration;
 use super::keeping::Keeping;
 use super::plain_text::visible;
-use super::progress::{Watcher, duration};
+use super::progress::Watcher;
 use super::{interrupt, memory_guard, outputs, say, summary, threads};
 use crate::Error;
 use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};

@@ -4,11 +4,12 @@ use std::fmt::Write as _;
 
 use sphpack_packing::Problem;
 
-use super::progress::duration;
+use super::duration::duration;
 use crate::ReadBody;
 use crate::picture::grouped;
 use crate::report::Report;
-use crate::run::{Outcome, Packing};
+use crate::run::Outcome;
+use crate::solution::Packing;
 
 /// A line for each stage.
 pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {

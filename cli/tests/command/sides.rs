@@ -49,18 +49,21 @@ fn floors_walls_and_the_whole_box() {
     let floor = "[[body]]\nshape = { box = { min = [0, 0], max = [3, 0.53] } }\n";
     let whole = "[[body]]\nshape = { box = { min = [0, 0], max = [3, 2] } }\n";
     for (number, domain) in [OPEN, CHANNEL].into_iter().enumerate() {
-        let desk = Desk::new()
-            .with("floor.toml", scene(0.1, domain, floor))
-            .with("whole.toml", scene(0.1, domain, whole));
+        let desk = Desk::new().with("floor.toml", scene(0.1, domain, floor));
         let report = pack(&desk, "floor.toml");
         check(&report, &[1.59], 1e-9);
         // A row on the floor's upper side, and on no other.
         assert_eq!(report["particles"]["fixed"], 0, "{number}");
         assert_eq!(report["particles"]["boundary"], 30, "{number}");
-        let report = pack(&desk, "whole.toml");
-        check(&report, &[6.0], 1e-9);
-        assert_eq!(report["particles"]["boundary"], 0);
-        assert_eq!(report["particles"]["fluid"], 0);
+        // Wherever a surface would be, there is none.
+        for depth in ["\"exact\"", "0.2", "0.5", "0.6", "1.3"] {
+            let at = format!("{whole}surface = {depth}\n");
+            let desk = Desk::new().with("whole.toml", scene(0.1, domain, &at));
+            let report = pack(&desk, "whole.toml");
+            check(&report, &[6.0], 1e-9);
+            assert_eq!(report["particles"]["boundary"], 0, "{depth}");
+            assert_eq!(report["particles"]["fluid"], 0, "{depth}");
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Bodies that go on beyond the sides of a box.
 
+mod features;
 mod mesh;
 mod outline;
 mod window;

@@ -347,6 +347,8 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
         let is_usual = is_usual(body);
         let inset = inset(problem, body)?;
         let found = match &inset {
+            // A body that fills the box has no surface in it.
+            Some(surface) if !is_usual && surface.measure() <= 0.0 => Ok(SurfaceSamples::default()),
             Some(surface) if !is_usual => {
                 let count = surface.measure() / problem.spacing.powi(D as i32 - 1);
                 surface

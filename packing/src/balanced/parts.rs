@@ -120,3 +120,17 @@ impl<const D: usize> Parts<D> {
         packed
     }
 }
+
+impl<const D: usize> Problem<D> {
+    /// The volume of every body without the bodies in it that come before, and that of the box without all of them last,
+    /// scene units to the power D.
+    pub fn rooms(&self) -> Vec<f64> {
+        let parts = Parts::of(self);
+        let room = parts.rooms();
+        let mut rooms = vec![0.0; self.bodies.len() + 1];
+        for (region, room) in room.into_iter().enumerate() {
+            rooms[parts.owner(region)] += room;
+        }
+        rooms
+    }
+}

@@ -4,10 +4,10 @@ use std::sync::{Arc, OnceLock};
 
 use sphpack_neighbors::{Bounds, Domain};
 
+use super::super::features::features_in;
 use super::super::window::holds;
 use super::super::{Continued, Whole};
 use super::contents::{self, Contents};
-use super::features_in;
 use crate::GeometryError;
 use crate::level_inset::LevelInset;
 use crate::mesh::Mesh;

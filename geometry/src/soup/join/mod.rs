@@ -3,6 +3,7 @@
 mod cuts;
 mod faces;
 mod minus;
+mod sheet;
 mod tiles;
 
 use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! Triangles over a part of a plane.
 
-use super::faces::Sheet;
+use super::sheet::Sheet;
 
 /// Parts with more points than this are cut into triangles ear by ear.
 const MOST_SEARCHED: usize = 128;
