@@ -17,7 +17,7 @@ pub(crate) struct Overlap<const D: usize> {
     pub(crate) bodies: [usize; 2],
     /// Where, scene units.
     pub(crate) place: [f64; D],
-    /// How deep it is in both, at least, scene units.
+    /// How deep it is in one of them, scene units: it is on the surface of the other, or a little behind that.
     pub(crate) depth: f64,
 }
 
@@ -135,35 +135,83 @@ mod tests {
     }
 
     #[track_caller]
-    fn check<const D: usize>(bodies: &[Body<D>], overlaps: bool) {
+    fn check<const D: usize>(bodies: &[Body<D>], overlaps: bool) -> Option<Overlap<D>> {
         let found = first(bodies, 0.1, |_| true);
         assert_eq!(found.is_some(), overlaps, "{found:?}");
         assert!(first(bodies, 0.1, |i| i == 0).is_none());
         if let Some(found) = found {
-            for &i in &found.bodies {
-                let distance = bodies[i].surface.closest(found.place).distance;
-                assert!(distance < 1e-12, "{found:?}");
-            }
+            let depths = (found.bodies).map(|i| -bodies[i].surface.closest(found.place).distance);
+            assert!(depths.iter().all(|depth| *depth > -1e-12), "{found:?}");
+            let is_in_one = depths
+                .iter()
+                .any(|depth| (depth - found.depth).abs() < 1e-12);
+            assert!(is_in_one, "{found:?}, not {depths:?}");
         }
+        found
+    }
+
+    /// The depth that is found, and no other, up to how densely places are strewn.
+    #[track_caller]
+    fn check_depth<const D: usize>(bodies: [Body<D>; 2], exact: f64, strewn: f64) {
+        let [a, b] = bodies;
+        let mirrored = [b.clone(), a.clone()];
+        for bodies in [[a, b], mirrored] {
+            let depth = check(&bodies, true).map_or(0.0, |found| found.depth);
+            assert!(
+                depth < exact + 1e-12 && depth > exact - strewn,
+                "{depth}, not {exact}"
+            );
+        }
+    }
+
+    fn ball<const D: usize>(x: f64, r: f64) -> Body<D> {
+        let center = std::array::from_fn(|k| if k == 0 { x } else { 0.0 });
+        body(Ball::new(center, r).expect("a ball"))
+    }
+
+    fn square(x: f64, y: f64) -> Body<2> {
+        body(Cuboid::new([x, y], [x + 1.0, y + 1.0]).expect("a square"))
+    }
+
+    fn cube(x: f64, y: f64, z: f64) -> Body<3> {
+        body(Cuboid::new([x, y, z], [x + 1.0, y + 1.0, z + 1.0]).expect("a cube"))
     }
 
     #[test]
     fn touching_is_no_overlap_and_nesting_is() {
-        let ball = |x: f64, r: f64| body(Ball::new([x, 0.0, 0.0], r).unwrap());
-        check(&[ball(0.0, 1.0), ball(2.0, 1.0)], false);
-        check(&[ball(0.0, 1.0), ball(1.999, 1.0)], false);
-        check(&[ball(0.0, 1.0), ball(1.9, 1.0)], true);
-        check(&[ball(0.0, 1.0), ball(0.1, 0.3)], true);
-        check(&[ball(0.1, 0.3), ball(0.0, 1.0)], true);
-        check(&[ball(0.0, 1.0), ball(0.0, 1.0)], true);
-        check(&[ball(0.0, 1.0), ball(5.0, 1.0)], false);
-        let square = |x: f64, y: f64| body(Cuboid::new([x, y], [x + 1.0, y + 1.0]).unwrap());
+        check::<3>(&[ball(0.0, 1.0), ball(2.0, 1.0)], false);
+        check::<3>(&[ball(0.0, 1.0), ball(1.999, 1.0)], false);
+        check::<3>(&[ball(0.0, 1.0), ball(1.9, 1.0)], true);
+        check::<3>(&[ball(0.0, 1.0), ball(0.1, 0.3)], true);
+        check::<3>(&[ball(0.1, 0.3), ball(0.0, 1.0)], true);
+        check::<3>(&[ball(0.0, 1.0), ball(0.0, 1.0)], true);
+        check::<3>(&[ball(0.0, 1.0), ball(5.0, 1.0)], false);
         check(&[square(0.0, 0.0), square(1.0, 0.0)], false);
         check(&[square(0.0, 0.0), square(1.0, 0.3)], false);
         check(&[square(0.0, 0.0), square(0.95, 0.95)], true);
         check(&[square(0.0, 0.0), square(0.0, 0.0)], true);
         // A sheet that is thinner than the step behind its surface.
-        let sheet = body(Cuboid::new([0.0, -0.01], [1.0, 0.0]).unwrap());
+        let sheet = body(Cuboid::new([0.0, -0.01], [1.0, 0.0]).expect("a sheet"));
         check(&[sheet, square(0.0, -1.01)], false);
+    }
+
+    /// How far one surface reaches into the other body.
+    #[test]
+    fn the_depth_is_that_of_exact_cases() {
+        // Balls: r₁ + r₂ − d.
+        check_depth::<2>([ball(0.0, 1.0), ball(1.9, 1.0)], 0.1, 1e-3);
+        check_depth::<2>([ball(0.0, 1.0), ball(1.3, 0.5)], 0.2, 1e-3);
+        check_depth::<3>([ball(0.0, 1.0), ball(1.9, 1.0)], 0.1, 0.01);
+        check_depth::<3>([ball(0.0, 1.0), ball(1.3, 0.5)], 0.2, 0.01);
+        // One in the other: R minus how near the small one's surface comes to the large one's centre.
+        check_depth::<3>([ball(0.0, 1.0), ball(0.5, 0.3)], 0.8, 0.01);
+        // The same twice: as far behind the surface as is looked.
+        check_depth::<3>([ball(0.0, 1.0), ball(0.0, 1.0)], 0.02, 1e-12);
+        // Boxes: the middle of a side, a corner.
+        check_depth([square(0.0, 0.0), square(0.7, 0.0)], 0.3, 1e-12);
+        check_depth([square(0.0, 0.0), square(0.8, 0.9)], 0.1, 1e-12);
+        check_depth([square(0.0, 0.0), square(0.95, 0.95)], 0.05, 0.01);
+        check_depth([cube(0.0, 0.0, 0.0), cube(0.2, 0.0, 0.7)], 0.3, 1e-12);
+        check_depth([cube(0.0, 0.0, 0.0), cube(0.6, 0.7, 0.8)], 0.2, 1e-12);
     }
 }

@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{triangles} triangles, {corners} sharp corners");
     println!("area {:.6}, volume {:.6}", mesh.measure(), mesh.volume());
 
-    let place = bounds.max;
+    let place = bounds.grown(0.1 * size).max;
     let hit = mesh.closest(place);
     println!(
         "closest to {place:?}: {:?}, distance {:.6}",

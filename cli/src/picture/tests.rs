@@ -5,17 +5,28 @@ use sphpack_separation::Side;
 
 use super::*;
 
+mod pixels;
+
 /// A square or cubic lattice with a body in its middle.
 fn table(dimension: usize) -> Table {
+    lattice(dimension, 12)
+}
+
+/// The same of so many sites a side, 12 or 13; those on its rim are frozen.
+fn lattice(dimension: usize, across: usize) -> Table {
     let mut table = Table {
         dimension,
         bodies: vec!["body".into()],
         ..Table::default()
     };
-    let depth = if dimension == 2 { 1 } else { 12 };
-    for number in 0..12 * 12 * depth {
-        let cell = [number % 12, number / 12 % 12, number / 144];
-        let position = cell.map(|k| 0.1 * (k as f64 - 5.5));
+    let depth = if dimension == 2 { 1 } else { across };
+    for number in 0..across * across * depth {
+        let cell = [
+            number % across,
+            number / across % across,
+            number / (across * across),
+        ];
+        let position = cell.map(|k| 0.1 * (k as f64 - 0.5 * (across - 1) as f64));
         let position = [
             position[0],
             position[1],
@@ -45,11 +56,13 @@ fn table(dimension: usize) -> Table {
 }
 
 fn drawn(table: &Table, format: PictureFormat) -> Vec<u8> {
-    let half = 0.5;
+    // Frozen particles are outside of the domain.
+    let end = |most: f64, p: &[f64; 3]| most.max(p[0]);
+    let half = table.position.iter().fold(0.55, end) - 0.05;
     let subject = Subject {
         name: "a <b> & \"c\"\n",
         table,
-        loops: &[vec![[-0.35, 0.0], [0.35, 0.0], [0.0, 0.35]]],
+        loops: &[vec![[-0.35, -0.05], [0.35, -0.05], [0.0, 0.38]]],
         domain: [[-half; 3], [half; 3]],
         spacing: 0.1,
         is_unfinished: true,
@@ -59,14 +72,16 @@ fn drawn(table: &Table, format: PictureFormat) -> Vec<u8> {
     bytes
 }
 
-/// Width and height of a PNG, decoded whole.
-fn decoded(bytes: &[u8]) -> (u32, u32) {
+/// Width, height and pixels of a PNG.
+fn decoded(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {
     let mut reader = ::png::Decoder::new(io::Cursor::new(bytes))
         .read_info()
         .unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut pixels).unwrap();
-    (info.width, info.height)
+    let (pixels, rest) = pixels.as_chunks();
+    assert!(rest.is_empty() && info.color_type == ::png::ColorType::Rgb);
+    (info.width as usize, info.height as usize, pixels.to_vec())
 }
 
 #[test]
@@ -98,7 +113,7 @@ fn svg_is_well_formed() {
 #[test]
 fn pngs_are_large_enough() {
     for dimension in [2, 3] {
-        let (width, height) = decoded(&drawn(&table(dimension), PictureFormat::Png));
+        let (width, height, _) = decoded(&drawn(&table(dimension), PictureFormat::Png));
         assert!(width >= 1600 && height >= 900, "{width} x {height}");
     }
 }
