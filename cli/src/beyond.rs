@@ -6,8 +6,7 @@ use sphpack_geometry::{Continued, Outline, Surface};
 use sphpack_neighbors::{Bounds, Domain, words};
 
 use crate::Error;
-use crate::dimension::{Built, Dimension, Space};
-use crate::precedence::Cuttable;
+use crate::dimension::{Built, Cuttable, Dimension, Space};
 use crate::scene::{Method, Role, Scene};
 
 /// How far beyond a side a body must reach to be told that it is cut there, in ∆s.

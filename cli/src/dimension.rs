@@ -1,19 +1,12 @@
-//! From a scene's words to surfaces: the one place where two and three dimensions are told apart.
+//! The one place where two and three dimensions are told apart, and what both can do.
 
-use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 
-use sphpack_geometry::{
-    Ball, BodyFormat, Cuboid, Cylinder, Ellipsoid, GeometryError, Mesh, Outline, Placed,
-    Similarity, Sketch, Soup, Surface, Torus,
-};
-use sphpack_neighbors::point;
+use sphpack_geometry::{BodyFormat, Continued, GeometryError, Mesh, Outline, Similarity, Surface};
+use sphpack_neighbors::Domain;
 use sphpack_packing::Method;
 
-use crate::body_file;
-use crate::methods;
-use crate::precedence::Cuttable;
 use crate::scene::{BodySpec, Scene, Shape};
 
 /// Work whose dimension, 2 or 3, is known only when it runs: the one place where the two ways part.
@@ -46,7 +39,7 @@ pub(crate) struct Built<const D: usize> {
 
 impl<const D: usize> Built<D> {
     /// A body by formula.
-    fn new(surface: Arc<dyn Surface<D>>, loops: Vec<Vec<[f64; 2]>>) -> Self {
+    pub(crate) fn new(surface: Arc<dyn Surface<D>>, loops: Vec<Vec<[f64; 2]>>) -> Self {
         Self {
             surface,
             loops,
@@ -95,180 +88,56 @@ pub(crate) trait Dimension<const D: usize>: Cuttable<D> {
     fn method(scene: &Scene) -> Box<dyn Method<D>>;
 }
 
-fn shift<const D: usize>(body: &BodySpec) -> [f64; D] {
-    point::of_slice(body.translate.as_deref().unwrap_or(&[]))
+/// What a cut leaves of a body.
+pub(crate) enum Left<C> {
+    /// All of it: the other body has no room in it.
+    All,
+    /// This.
+    Part(C),
+    /// Nothing.
+    Nothing,
 }
 
-fn wrong_dimension(shape: &Shape, dimension: usize) -> GeometryError {
-    GeometryError::BadParameter {
-        shape: shape.name(),
-        name: "dimension",
-        value: shape.dimension().unwrap_or(5 - dimension) as f64,
-        needs: "the same as that of the domain and of every other body",
-    }
-}
-
-impl Dimension<2> for Space<2> {
-    fn method(scene: &Scene) -> Box<dyn Method<2>> {
-        methods::method(scene)
-    }
-
-    fn place(body: &BodySpec) -> Result<Similarity<2>, GeometryError> {
-        Similarity::<2>::new(body.scale, body.rotate_degrees.unwrap_or(0.0), shift(body))
-    }
-
-    fn build(
-        shape: &Shape,
-        file: Option<&Path>,
-        place: &Similarity<2>,
-    ) -> Result<Built<2>, GeometryError> {
-        let mut read = None;
-        let mut repairs = Vec::new();
-        let outline = match shape {
-            Shape::Circle { center, radius } => {
-                let ball = Ball::new(place.point(point::of_slice(center)), radius * place.scale())?;
-                let (middle, radius) = (ball.center(), ball.radius());
-                return Ok(Built::new(
-                    Arc::new(ball),
-                    vec![ring(|angle| {
-                        [
-                            middle[0] + radius * angle.cos(),
-                            middle[1] + radius * angle.sin(),
-                        ]
-                    })],
-                ));
-            }
-            Shape::Ellipse { center, semi_axes } => {
-                let (c, a): ([f64; 2], [f64; 2]) =
-                    (point::of_slice(center), point::of_slice(semi_axes));
-                return Ok(Built::new(
-                    Arc::new(Placed::new(Arc::new(Ellipsoid::new(c, a)?), *place)),
-                    vec![ring(|angle| {
-                        place.point([c[0] + a[0] * angle.cos(), c[1] + a[1] * angle.sin()])
-                    })],
-                ));
-            }
-            Shape::Box { min, max } => {
-                let (a, b): ([f64; 2], [f64; 2]) = (point::of_slice(min), point::of_slice(max));
-                return Ok(Built::new(
-                    Arc::new(Placed::new(Arc::new(Cuboid::new(a, b)?), *place)),
-                    vec![
-                        [a, [b[0], a[1]], b, [a[0], b[1]]]
-                            .map(|corner| place.point(corner))
-                            .to_vec(),
-                    ],
-                ));
-            }
-            Shape::Polygon { points } => Outline::polygon(
-                &points
-                    .iter()
-                    .map(|p| point::of_slice(p))
-                    .collect::<Vec<_>>(),
-            )?,
-            Shape::Starfish {
-                center,
-                radius,
-                amplitude,
-                arms,
-            } => Outline::starfish(point::of_slice(center), *radius, *amplitude, *arms)?,
-            Shape::Zigzag {
-                width,
-                height,
-                amplitude,
-                teeth,
-            } => Outline::zigzag(*width, *height, *amplitude, *teeth)?,
-            Shape::Naca { digits, chord } => Outline::naca(digits, *chord)?,
-            Shape::File(path) => {
-                let (format, mended) = body_file::read(file.unwrap_or(path), |format, bytes| {
-                    Sketch::from_bytes(format, bytes)?.body()
-                })?;
-                read = Some((format, mended.outline.points().len()));
-                repairs = mended.done.iter().map(ToString::to_string).collect();
-                mended.outline
-            }
-            _ => return Err(wrong_dimension(shape, 2)),
-        };
-        let outline = outline.transformed(place);
-        Ok(Built {
-            read,
-            repairs,
-            ..Built::of_outline(outline)
-        })
+impl<C> From<Option<C>> for Left<C> {
+    fn from(cut: Option<C>) -> Self {
+        cut.map_or(Self::Nothing, Self::Part)
     }
 }
 
-impl Dimension<3> for Space<3> {
-    fn method(scene: &Scene) -> Box<dyn Method<3>> {
-        methods::method(scene)
-    }
+/// How bodies are cut, in the plane and in space.
+pub(crate) trait Cuttable<const D: usize> {
+    /// What is left of a body that was cut.
+    type Cut: Surface<D> + Clone + 'static;
+    /// A body that can be cut, and can cut.
+    type Operand;
 
-    fn place(body: &BodySpec) -> Result<Similarity<3>, GeometryError> {
-        let (axis, degrees) = match &body.rotate {
-            Some(rotation) => (point::of_slice(&rotation.axis), rotation.degrees),
-            None => ([0.0, 0.0, 1.0], 0.0),
-        };
-        Similarity::<3>::new(body.scale, axis, degrees, shift(body))
-    }
+    /// The body as such. Circles and ellipses become outlines within 10⁻⁷ of their size, boxes meshes.
+    fn operand(body: &BodySpec, built: &Built<D>) -> Result<Self::Operand, GeometryError>;
 
-    fn build(
-        shape: &Shape,
-        file: Option<&Path>,
-        place: &Similarity<3>,
-    ) -> Result<Built<3>, GeometryError> {
-        let surface: Arc<dyn Surface<3>> = match shape {
-            Shape::Sphere { center, radius } => Arc::new(Ball::new(
-                place.point(point::of_slice(center)),
-                radius * place.scale(),
-            )?),
-            Shape::Ellipsoid { center, semi_axes } => Arc::new(Placed::new(
-                Arc::new(Ellipsoid::<3>::new(
-                    point::of_slice(center),
-                    point::of_slice(semi_axes),
-                )?),
-                *place,
-            )),
-            Shape::Box { min, max } => Arc::new(Placed::new(
-                Arc::new(Cuboid::<3>::new(
-                    point::of_slice(min),
-                    point::of_slice(max),
-                )?),
-                *place,
-            )),
-            Shape::Cylinder { start, end, radius } => Arc::new(Cylinder::new(
-                place.point(point::of_slice(start)),
-                place.point(point::of_slice(end)),
-                radius * place.scale(),
-            )?),
-            Shape::Torus {
-                center,
-                axis,
-                major,
-                minor,
-            } => Arc::new(Torus::new(
-                place.point(point::of_slice(center)),
-                place.direction(point::of_slice(axis)),
-                major * place.scale(),
-                minor * place.scale(),
-            )?),
-            Shape::File(path) => {
-                let path = file.unwrap_or(path);
-                let (format, (triangles, mended)) = body_file::read(path, |format, bytes| {
-                    let soup = Soup::from_bytes(format, bytes)?;
-                    Ok((soup.triangles().len(), soup.transformed(place)?.body()?))
-                })?;
-                return Ok(Built {
-                    read: Some((format, triangles)),
-                    repairs: mended.done.iter().map(ToString::to_string).collect(),
-                    ..Built::of_mesh(mended.mesh)
-                });
-            }
-            _ => return Err(wrong_dimension(shape, 3)),
-        };
-        Ok(Built::new(surface, Vec::new()))
-    }
-}
+    /// What was cut before, to be cut again.
+    fn again(cut: Self::Cut) -> Self::Operand;
 
-/// A closed curve as a polygon for pictures.
-fn ring(at: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 2]> {
-    (0..360).map(|k| at(TAU * f64::from(k) / 360.0)).collect()
+    /// What is left of `lower`.
+    ///
+    /// Exact in the plane, and in space where both are meshes or boxes; what is thinner than 10⁻⁶ of the body does not count
+    /// there, neither as an overlap nor as a piece, nor what is deeper nowhere than 10⁻⁶ ∆s in space. Other bodies in space are cut on a grid with
+    /// cells of ∆s/4, finer where slices would be lost, and come out as meshes: within some ∆s²/128R of a surface that bends by radius R, with sharp edges
+    /// where the two meet. Of a ball of R = 5 ∆s cut by another of 4 ∆s the volume is then off by less than 0.05 %.
+    fn minus(
+        lower: &Self::Operand,
+        higher: &Self::Operand,
+        spacing: f64,
+    ) -> Result<Left<Self::Cut>, GeometryError>;
+
+    /// The body again.
+    fn rebuilt(cut: Self::Cut) -> Built<D>;
+
+    /// The body as it goes on beyond the sides of a box; `None` where it does not. Bodies by formula become outlines and meshes
+    /// first, as for a cut; cylinders, prisms of the same volume within 10⁻⁴ ∆s.
+    fn continued(
+        body: &BodySpec,
+        built: &Built<D>,
+        domain: &Domain<D>,
+        spacing: f64,
+    ) -> Result<Option<Continued<D>>, GeometryError>;
 }

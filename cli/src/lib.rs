@@ -53,6 +53,7 @@ mod report;
 mod roles;
 mod run;
 pub mod scene;
+mod shapes;
 mod solution;
 mod surroundings;
 mod table;

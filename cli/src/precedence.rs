@@ -8,7 +8,7 @@ use sphpack_geometry::{
 use sphpack_neighbors::{Domain, point};
 
 use crate::Error;
-use crate::dimension::{Built, Dimension, Space};
+use crate::dimension::{Built, Cuttable, Dimension, Left, Space};
 use crate::overlap;
 use crate::scene::{BodySpec, Role, Scene, Shape};
 
@@ -33,60 +33,6 @@ const LOST_ON_GRID: f64 = 0.1;
 
 /// How far the sides of a prism that stands for a cylinder are from it, in ∆s.
 const ROUND_WITHIN: f64 = 1e-4;
-
-/// What a cut leaves of a body.
-pub(crate) enum Left<C> {
-    /// All of it: the other body has no room in it.
-    All,
-    /// This.
-    Part(C),
-    /// Nothing.
-    Nothing,
-}
-
-impl<C> From<Option<C>> for Left<C> {
-    fn from(cut: Option<C>) -> Self {
-        cut.map_or(Self::Nothing, Self::Part)
-    }
-}
-
-/// How bodies are cut, in the plane and in space.
-pub(crate) trait Cuttable<const D: usize> {
-    /// What is left of a body that was cut.
-    type Cut: Surface<D> + Clone + 'static;
-    /// A body that can be cut, and can cut.
-    type Operand;
-
-    /// The body as such. Circles and ellipses become outlines within 10⁻⁷ of their size, boxes meshes.
-    fn operand(body: &BodySpec, built: &Built<D>) -> Result<Self::Operand, GeometryError>;
-
-    /// What was cut before, to be cut again.
-    fn again(cut: Self::Cut) -> Self::Operand;
-
-    /// What is left of `lower`.
-    ///
-    /// Exact in the plane, and in space where both are meshes or boxes; what is thinner than 10⁻⁶ of the body does not count
-    /// there, neither as an overlap nor as a piece, nor what is deeper nowhere than 10⁻⁶ ∆s in space. Other bodies in space are cut on a grid with
-    /// cells of ∆s/4, finer where slices would be lost, and come out as meshes: within some ∆s²/128R of a surface that bends by radius R, with sharp edges
-    /// where the two meet. Of a ball of R = 5 ∆s cut by another of 4 ∆s the volume is then off by less than 0.05 %.
-    fn minus(
-        lower: &Self::Operand,
-        higher: &Self::Operand,
-        spacing: f64,
-    ) -> Result<Left<Self::Cut>, GeometryError>;
-
-    /// The body again.
-    fn rebuilt(cut: Self::Cut) -> Built<D>;
-
-    /// The body as it goes on beyond the sides of a box; `None` where it does not. Bodies by formula become outlines and meshes
-    /// first, as for a cut; cylinders, prisms of the same volume within 10⁻⁴ ∆s.
-    fn continued(
-        body: &BodySpec,
-        built: &Built<D>,
-        domain: &Domain<D>,
-        spacing: f64,
-    ) -> Result<Option<Continued<D>>, GeometryError>;
-}
 
 impl Cuttable<2> for Space<2> {
     type Cut = Outline;

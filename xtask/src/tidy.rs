@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+mod rings;
+
 /// Which of our crates each crate may depend on. One direction only: see ARCHITECTURE.md.
 const GRAPH: [(&str, &[&str]); 8] = [
     ("kernels", &[]),
@@ -74,9 +76,13 @@ fn complaints(root: &Path) -> Vec<String> {
             Ok(text) => check_manifest(name, &text, allowed, &mut complaints),
             Err(error) => complaints.push(format!("{name}/Cargo.toml: {error}")),
         }
+        let mut files = Vec::new();
         for path in sources(&root.join(name)) {
             match fs::read_to_string(&path) {
                 Ok(text) => {
+                    if let Ok(within) = path.strip_prefix(root.join(name).join("src")) {
+                        files.push((within.display().to_string(), text.clone()));
+                    }
                     let shown = path
                         .strip_prefix(root)
                         .unwrap_or(&path)
@@ -87,6 +93,12 @@ fn complaints(root: &Path) -> Vec<String> {
                 }
                 Err(error) => complaints.push(format!("{}: {error}", path.display())),
             }
+        }
+        for ring in rings::rings(&files) {
+            complaints.push(format!(
+                "{name}: files import each other in a ring: {}",
+                ring.join(", ")
+            ));
         }
     }
     complaints

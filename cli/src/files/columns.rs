@@ -1,10 +1,6 @@
 //! Anybody's particles, as columns by name.
 
 use std::collections::BTreeMap;
-use std::path::Path;
-
-use super::{ParticleFormat, format};
-use crate::Error;
 
 /// Columns that must be numbers where they are there.
 pub(super) const NUMBERS: [&str; 4] = ["x", "y", "z", "volume"];
@@ -19,42 +15,6 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Reads a particle file; its ending says which format. What is never written is read too: an array of NumPy's (.npy), and
-    /// rows of text by other names (.txt, .dat).
-    ///
-    /// # Errors
-    /// [`Error::Input`] where it cannot be read, or has no coordinates.
-    pub fn read(path: &Path) -> Result<Self, Error> {
-        let ending = format::ending(path);
-        let format = match ending.as_str() {
-            "npy" => {
-                let mut columns = super::read_npy(&super::read_whole(path)?, path)?;
-                columns.lower_case();
-                return Ok(columns);
-            }
-            "txt" | "dat" => ParticleFormat::Csv,
-            _ => ParticleFormat::of(path)?,
-        };
-        Self::parse(format, &super::read_whole(path)?, path)
-    }
-
-    /// The columns in the content of a particle file; `path` is for messages. Holds no more than the columns beside the
-    /// bytes, but for one array of a compressed file.
-    ///
-    /// # Errors
-    /// [`Error::Input`] where the content is damaged, or has no coordinates.
-    pub fn parse(format: ParticleFormat, bytes: &[u8], path: &Path) -> Result<Self, Error> {
-        let mut columns = match format {
-            ParticleFormat::Csv => super::read_csv(bytes, path),
-            ParticleFormat::Vtu | ParticleFormat::Vtp => super::read_vtu(bytes, path),
-            ParticleFormat::Npz => super::read_npz(bytes, path),
-            ParticleFormat::Ply => super::read_ply(bytes, path),
-            ParticleFormat::Vtk => super::read_vtk(bytes, path),
-        }?;
-        columns.lower_case();
-        Ok(columns)
-    }
-
     /// Names in small letters, where that makes no two of them the same.
     pub(super) fn lower_case(&mut self) {
         fn fold<T>(columns: &mut BTreeMap<String, T>, is_taken: impl Fn(&str) -> bool) {

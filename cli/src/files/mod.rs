@@ -1,5 +1,6 @@
 //! Reading and writing files: particles in several formats, everything whole or not at all.
 
+mod any_read;
 mod arrays;
 mod columns;
 mod csv;

@@ -1,6 +1,6 @@
 //! Whether a body makes sense, as far as that can be said without building it.
 
-use super::check::{Checked, Key, fault, finite, positive, vector};
+use super::fault::{Checked, Key, fault, finite, positive, vector};
 use super::{BodySpec, Role, Shape};
 
 /// Whether a body's numbers are in their ranges; `index` is its place in the scene.

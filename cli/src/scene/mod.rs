@@ -2,6 +2,7 @@
 
 mod check;
 mod check_body;
+mod fault;
 mod method;
 mod named;
 mod nearest;
@@ -18,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use sphpack_kernels::KernelKind;
 use sphpack_packing::{Complex, Hybrid, Kind, Lattice, MinimiserKind, Settling};
 
-pub use check::Fault;
+pub use fault::Fault;
 pub use method::{METHODS, Method, MethodInfo, UnknownMethod};
 pub use named::Inset;
 pub(crate) use named::kernel_by_name;

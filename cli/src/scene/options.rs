@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use sphpack_packing::{Agitated, Agitators, Hybrid};
 
-use super::check::{Checked, Key, fault, positive};
+use super::fault::{Checked, Key, fault, positive};
 
 /// Of the method hybrid; its defaults are paper 001's algorithm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -6,7 +6,8 @@ use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 use super::Scene;
-use super::check::{Fault, Key, MAX_BODIES, too_many_bodies};
+use super::check::{MAX_BODIES, too_many_bodies};
+use super::fault::{Fault, Key};
 use super::nearest::advice;
 use crate::Error;
 
