@@ -186,7 +186,8 @@ fn refusal(case: &Case, trial: &Trial, faults: &mut Faults) {
 fn reason(case: &Case, errors: &str) -> String {
     let mut text = errors
         .lines()
-        .filter(|line| !line.contains("warning:"))
+        // Warnings are no reasons, nor are the first words of progress.
+        .filter(|line| !line.contains("warning:") && !line.trim_end().ends_with('…'))
         .collect::<Vec<_>>()
         .join(" ");
     for (k, body) in case.bodies.iter().enumerate() {
