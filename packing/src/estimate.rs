@@ -100,9 +100,10 @@ const SEEN_SECONDS: f64 = 6e-8;
 const END_SECONDS: f64 = 1.2e-5;
 
 /// Bytes of a patch of a surface that confines while patches are put in order, and later; core-seconds until it is
-/// cut. By balls of 1,700 … 2,200 ∆s² and boxes of 350 and 400: 1.5 kB with one confined side, 2.1 kB with two.
-const PATCH_BYTES: f64 = 1300.0;
-const KEPT_PATCH_BYTES: f64 = 500.0;
+/// cut. In space by balls of 1,700 … 2,200 ∆s² and boxes of 350 and 400: 1.5 kB with one confined side, 2.1 kB with two. In the
+/// plane a patch is one piece of a curve, by its fields 130 bytes: of 100 discs.
+const PATCH_BYTES: [f64; 2] = [430.0, 1300.0];
+const KEPT_PATCH_BYTES: [f64; 2] = [130.0, 500.0];
 const CUTTING_SECONDS: f64 = 1.8e-5;
 
 /// Core-seconds of a patch that confines all particles within its reach, for each ∆s^D of a cube as wide as the
@@ -146,7 +147,8 @@ impl<const D: usize> Problem<D> {
         let (mut patches, mut confining) = (0.0, 0.0);
         if sides > 0.0 {
             patches = on_surface * patches_over_spacing(D) + self.sharp() * PATCHES_ALONG_EDGE;
-            confining = patches * (PATCH_BYTES + (sides - 1.0) * KEPT_PATCH_BYTES);
+            let kept = (sides - 1.0) * KEPT_PATCH_BYTES[D - 2];
+            confining = patches * (PATCH_BYTES[D - 2] + kept);
         }
         let settling = moving * (work.bytes[D - 2] + work.lists * listed(self.reach()))
             + work.lists * seen * SEEN_BYTES

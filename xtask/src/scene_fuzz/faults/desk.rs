@@ -389,9 +389,9 @@ impl<'a> Desk<'a> {
         found
     }
 
-    /// Makes what a killed run left look so old that the next one cleans it.
-    pub(super) fn age(&self) -> Result<(), String> {
-        for path in self.hidden("") {
+    /// Makes what a killed run left, in a folder too, look so old that the next one cleans it.
+    pub(super) fn age(&self, folder: &str) -> Result<(), String> {
+        for path in self.hidden(folder) {
             let file = File::options().append(true).open(&path);
             file.and_then(|file| file.set_modified(SystemTime::now() - Duration::from_secs(120)))
                 .map_err(|error| format!("{}: {error}", path.display()))?;

@@ -180,7 +180,7 @@ pub(super) fn processor_time(desk: &Desk<'_>, random: &mut Random) -> Result<Out
         return Err(format!("status {:?}: {}", ended.code, ended.errors));
     }
     desk.put("scene.toml", desk.reference.scene)?;
-    desk.age()?;
+    desk.age("")?;
     ended = desk.run(Run::pack(&outputs))?;
     desk.set(&outputs, &ended)?;
     if ended.code == Some(0) {

@@ -112,7 +112,7 @@ pub(super) fn becomes_read_only(desk: &Desk<'_>, random: &mut Random) -> Result<
 
 /// The next run cleans what was left, and does all.
 fn again(desk: &Desk<'_>, run: Run) -> Result<(), String> {
-    desk.age()?;
+    desk.age("sub")?;
     let ended = desk.run(run)?;
     ended.is_decent()?;
     // Under that name may be the only copy of what was there before, so that nothing takes it away.
