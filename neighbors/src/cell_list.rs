@@ -137,6 +137,9 @@ impl<const D: usize> CellList<D> {
     }
 
     /// The slot of a target; `None` for a particle that is none.
+    ///
+    /// # Panics
+    /// Where the last update had no particle of this number.
     #[inline]
     pub fn slot_of(&self, particle: usize) -> Option<usize> {
         let slot = self.slot_of[particle];
@@ -360,6 +363,9 @@ impl<const D: usize> CellList<D> {
 
     /// Writes every source's present position times `unit` and weight into its slot, and the padding slot behind
     /// them; `weights` has one entry per particle. O(n), parallel, no allocation once `slots` has its size.
+    ///
+    /// # Panics
+    /// Where positions or weights are fewer than at the last update.
     pub fn gather(
         &self,
         positions: &[[f64; D]],
@@ -382,6 +388,9 @@ impl<const D: usize> CellList<D> {
     }
 
     /// Writes other weights into gathered `slots`; `weights` has one entry per particle. O(n), parallel.
+    ///
+    /// # Panics
+    /// Where weights are fewer than particles at the last update.
     pub fn weigh(&self, weights: &[f64], slots: &mut [Slot]) {
         slots
             .par_iter_mut()
@@ -398,6 +407,9 @@ impl<const D: usize> CellList<D> {
     /// Candidates of target `i`, itself left out, by particle and shift: x_i − (x_j + shift) is the way from `j`, or from an
     /// image of it, to `i`. All within either's support are among them, and others as far as the skin and the block go.
     /// Nothing where `i` is no target. One target at a time: for all of them [`CellList::blocks`] is many times faster.
+    ///
+    /// # Panics
+    /// Where the last update had no particle `i`.
     pub fn neighbors(&self, i: usize) -> impl Iterator<Item = (usize, [f64; D])> + '_ {
         let shift = |slot: usize| self.shift.get(slot).copied().unwrap_or([0.0; D]);
         let near = move |slot: usize| {
@@ -412,7 +424,11 @@ impl<const D: usize> CellList<D> {
     }
 
     /// The particles within the support of target `i`, or of which it is within theirs, itself left out, with x_i − x_j; an
-    /// image counts as its particle, and appears once for each image in reach. Nothing where `i` is no target.
+    /// image counts as its particle, and appears once for each image in reach. Nothing where `i` is no target. Supports are
+    /// those of the last build.
+    ///
+    /// # Panics
+    /// Where the last update had no particle `i`, or other positions than these.
     pub fn around<'a>(
         &'a self,
         i: usize,

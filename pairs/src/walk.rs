@@ -251,7 +251,7 @@ impl<'a, S: Simd, T: Term, const D: usize> Walk<'a, S, T, D> {
         }
         let mut value = f64x8::splat(simd, P::SIGMA * run.units);
         for _ in 0..D {
-            value = value * self.inverse;
+            value *= self.inverse;
         }
         let slope = value * self.inverse * f64x8::splat(simd, P::SLOPE * run.unit);
         Scale {

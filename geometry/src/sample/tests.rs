@@ -321,6 +321,7 @@ fn strewn_points_stand_for_equal_areas() {
 }
 
 /// A torus that counts how often it is asked for a closest point.
+#[derive(Debug)]
 struct Asked {
     torus: Torus,
     times: AtomicUsize,

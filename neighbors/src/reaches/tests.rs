@@ -12,7 +12,7 @@ fn sets<const D: usize>() -> impl Strategy<Value = (Vec<[f64; D]>, Vec<f64>)> {
             let part = match kind {
                 0 => (i as f64 * 0.618_033_988_749).fract(),
                 1 => p[0],
-                _ => f64::from(u8::from(i % 5 == 0)),
+                _ => f64::from(u8::from(i.is_multiple_of(5))),
             };
             least * ratio.powf(part)
         };

@@ -237,7 +237,10 @@ fn with_the_left_levelled<R>(
     work: impl FnOnce(&mut Landscape<'_, 2>, &[bool]) -> R,
 ) -> R {
     let (problem, mut particles, surfaces) = shaken::<2>(0.1, 8);
-    let mut forces = Forces::of(&problem, Repulsion::new(problem.spacing, STRENGTH));
+    let mut forces = Forces::of(
+        &problem,
+        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+    );
     let is_left: Vec<bool> = particles.position.iter().map(|p| p[0] < 0.4).collect();
     forces.levelled = is_left.clone();
     forces.levelling = Levelling::new(stiffness, 1.0);

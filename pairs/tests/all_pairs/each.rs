@@ -210,7 +210,7 @@ fn check<const D: usize>(
     let part = |i: usize, p: &[f64; D]| match kind % 3 {
         0 => (i as f64 * 0.618_033_988_749).fract(),
         1 => p[0],
-        _ => f64::from(u8::from(i % 5 == 0)),
+        _ => f64::from(u8::from(i.is_multiple_of(5))),
     };
     let sizes: Vec<f64> = (positions.iter().enumerate())
         .map(|(i, p)| least * ratio.powf(part(i, p)))
