@@ -36,11 +36,13 @@ const SEARCHED_TOGETHER: usize = 4;
 /// let mut list = CellList::new(&Domain::new([0.0, 0.0], [1.0, 1.0]), 0.5);
 /// list.update(&points);
 /// assert_eq!(list.of(0, &points), vec![1]);
-/// // Everything within reach, by particle and shift (zero without periodic sides).
-/// for (j, shift) in list.neighbors(0) {
-///     let apart: f64 = (0..2).map(|k| (points[0][k] - points[j][k] - shift[k]).powi(2)).sum();
-///     assert!(apart.sqrt() <= 0.5);
-/// }
+/// // All within reach are among the candidates, by particle and shift (zero without periodic sides).
+/// let way = |j: usize, shift: [f64; 2]| [0, 1].map(|k| points[0][k] - points[j][k] - shift[k]);
+/// let near = list.neighbors(0).filter(|&(j, shift)| {
+///     let [x, y] = way(j, shift);
+///     x * x + y * y <= 0.25
+/// });
+/// assert_eq!(near.count(), 1);
 /// ```
 #[derive(Debug, Clone)]
 pub struct CellList<const D: usize> {

@@ -1,3 +1,5 @@
+//! Sums over pairs of particles, term by term.
+//!
 #![doc = include_str!("../README.md")]
 
 mod fields;
