@@ -90,7 +90,7 @@ pub(crate) fn strewn<const D: usize, S: Surface<D> + ?Sized>(
     let spacing = (surface.measure() / count as f64).powf(1.0 / (D as f64 - 1.0));
     // A tube much thinner than its points are apart is a curve: by its area alone one of radius 3·10⁻⁹ took 36 s. Of
     // a thread that the smallest boxes do not resolve, parts may have up to 1.7 times as many points as others.
-    let spacing = spacing.max(0.1 * point::norm(bounds.size()) / count as f64);
+    let spacing = spacing.max(0.25 * point::norm(bounds.size()) / count as f64);
     let mut hits = Candidates::in_boxes(&bounds, &near, spacing, count, THOROUGH).hits();
     hits.par_iter_mut().with_min_len(64).for_each(|hit| {
         let found = surface.closest(hit.point);
