@@ -23,7 +23,7 @@ pub fn shells<K: Kernel<D>, const D: usize>(kernel: K, short: f64) -> [f64; SHEL
 }
 
 /// Adds up `term` over the blocks of a list. `kernel` gives the shape, and the smoothing length where all have one (scene
-/// units). The list's shells must be those of [`shells`]. `out` has one entry per target slot.
+/// units). The list's shells must be those of [`shells`], or none. `out` has one entry per target slot.
 ///
 /// # Panics
 /// Where `out` is not as long as there are targets.

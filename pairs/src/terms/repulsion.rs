@@ -6,8 +6,8 @@ use sphpack_neighbors::{GROUP, LANES};
 use crate::group::{Group, Scale, Targets};
 use crate::term::Term;
 
-/// The repulsion of 001 eqs. 15 and 16: the gradient of 12 k_r (c²/r³ − c/r²) with c = 2α∆s/3, between ∆s/2 and α∆s,
-/// where it vanishes; constant below ∆s/2.
+/// The repulsion of Negi and Ramachandran (2021), eqs. 15 and 16: the gradient of 12 k_r (c²/r³ − c/r²) with
+/// c = 2α∆s/3, between ∆s/2 and α∆s, where it vanishes; constant below ∆s/2.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Repulsion {
     /// 12 k_r.
@@ -25,7 +25,7 @@ impl Repulsion {
     /// C, the middle of the range 0.004 … 0.006 of Negi and Ramachandran (2021), eq. 24.
     pub const STRENGTH: f64 = 0.005;
 
-    /// The repulsion at spacing ∆s with k_r = `strength` · ∆s · p_b, for p_b = 1 (001 eq. 24).
+    /// The repulsion at spacing ∆s with k_r = `strength` · ∆s · p_b, for p_b = 1 (their eq. 24).
     pub fn new(spacing: f64, strength: f64) -> Self {
         Self::with_reach(spacing, strength, Self::REACH_OVER_SPACING)
     }
