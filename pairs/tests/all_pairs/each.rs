@@ -244,3 +244,33 @@ proptest! {
         check(&solid, (sizes.0, sizes.1.min(0.3 / sizes.0), sizes.2), periodic)?;
     }
 }
+
+/// Lists and sums have the same bits for any number of threads.
+#[test]
+fn threads_change_no_bit() {
+    let part = |i: usize, k: usize| ((i * (k + 3) + k) as f64 * 0.618_033_988_749).fract();
+    let positions: Vec<[f64; 2]> = (0..5000).map(|i| [part(i, 0), part(i, 1)]).collect();
+    let sizes: Vec<f64> = positions
+        .iter()
+        .map(|p| 0.002 * 10.0_f64.powf(p[0]))
+        .collect();
+    let supports: Vec<f64> = sizes.iter().map(|h| 3.0 * h).collect();
+    let weights: Vec<f64> = sizes.iter().map(|h| h * h).collect();
+    let domain = Domain::new([0.0; 2], [1.0; 2]).with_periodic([true, false]);
+    let with_threads = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("a thread pool");
+        pool.install(|| {
+            let mut list = CellList::new(&domain, 0.0).with_skin(0.1);
+            list.update_each(&positions, &supports, is_target);
+            let fields = Fields::new(Quintic::<2>::new(1.0), &positions, &weights)
+                .with_smoothing_lengths(&sizes);
+            Pairs::new(&list).sum(&(Density, Gradient), &fields)
+        })
+    };
+    let one = with_threads(1);
+    assert_eq!(one, with_threads(2));
+    assert_eq!(one, with_threads(5));
+}
