@@ -1,13 +1,13 @@
 //! From a scene's method to the one that packs.
 
 use sphpack_packing::{
-    Agitated, Balanced, Band, Clipped, Complex, Coupled, Hybrid, Method as Packs, Observer, Packed,
-    Ppa, Problem, Relaxation, Standard, Triangulated, seeding::particle_surfaces,
+    Agitated, Balanced, Clipped, Complex, Coupled, Hybrid, Method as Packs, Observer, Packed,
+    PackingError, Ppa, Problem, Relaxation, RunLog, Standard, Triangulated,
 };
 
 use crate::Error;
 use crate::dimension::{Dimension, Space};
-use crate::scene::{BandWidth, Method, PackingSpec, Role, Scene};
+use crate::scene::{Method, PackingSpec, Role, Scene};
 
 /// The scene's method, with the scene's settings.
 pub(crate) fn method<const D: usize>(scene: &Scene) -> Box<dyn Packs<D>>
@@ -28,10 +28,7 @@ where
     match packing.method {
         Method::Balanced => Box::new(Balanced {
             settling: packing.settling(),
-            band: match packing.band {
-                BandWidth::Auto => Band::Auto,
-                BandWidth::Full => Band::Full,
-            },
+            band: packing.band(),
         }),
         Method::Hybrid => Box::new(packing.hybrid.apply(Hybrid {
             velocity_tolerance: packing.velocity_tolerance,
@@ -80,27 +77,25 @@ pub(crate) fn pack<const D: usize>(
 where
     Space<D>: Dimension<D>,
 {
-    let packed = Space::<D>::method(scene).pack(problem, observer);
-    packed.map_err(|source| Error::Packing {
-        advice: None,
-        path: scene.path.clone(),
-        source: Box::new(source),
-    })
+    let packed = Space::<D>::method(scene).pack(problem, &mut RunLog::new(observer));
+    packed.map_err(|source| failed(scene, source))
 }
 
 /// Whether the scene's method will take the problem, as far as that is known before the work.
-pub(crate) fn check<const D: usize>(problem: &Problem<D>, scene: &Scene) -> Result<(), Error> {
-    let checked = match scene.packing.method {
-        Method::Balanced => Balanced::check(problem),
-        // The fluid goes to the true surfaces.
-        Method::Ppa => problem.check(),
-        _ => particle_surfaces(problem).map(drop),
-    };
-    checked.map_err(|source| Error::Packing {
+pub(crate) fn check<const D: usize>(problem: &Problem<D>, scene: &Scene) -> Result<(), Error>
+where
+    Space<D>: Dimension<D>,
+{
+    let checked = Space::<D>::method(scene).check(problem);
+    checked.map_err(|source| failed(scene, source))
+}
+
+fn failed(scene: &Scene, source: PackingError) -> Error {
+    Error::Packing {
         advice: None,
         path: scene.path.clone(),
         source: Box::new(source),
-    })
+    }
 }
 
 fn relaxation(packing: &PackingSpec) -> Relaxation {

@@ -4,12 +4,12 @@ use std::time::Instant;
 
 use sphpack_geometry::GeometryError;
 use sphpack_neighbors::{Bounds, Domain, point, words};
-use sphpack_packing::{Band, Body, Estimate, FrozenLayout, Kind, PackingError, Problem};
+use sphpack_packing::{Body, Estimate, FrozenLayout, Kind, Moves, PackingError, Problem};
 
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Built, Dimension, Space, in_dimension};
-use crate::scene::{BandWidth, Fault, Frozen, Method, Role, Scene, Surroundings};
+use crate::scene::{Fault, Frozen, Role, Scene, Surroundings};
 use crate::{beyond, methods, overlap, precedence, roles, units};
 
 pub(crate) use crate::memory::available_bytes;
@@ -287,12 +287,12 @@ where
         advice: units::advice(scene, &problem, &source),
         source: Box::new(source),
     };
-    let moves = match (scene.packing.method, scene.packing.band) {
-        (Method::Balanced, BandWidth::Auto) => {
-            Band::Auto.first_width(&problem, scene.packing.settling().finish)
+    let moves = match scene.packing.method.info().moves {
+        Moves::Nothing => 0.0,
+        Moves::Band => {
+            (scene.packing.band()).first_width(&problem, scene.packing.settling().finish)
         }
-        (Method::Clipped, _) => 0.0,
-        _ => f64::INFINITY,
+        Moves::All => f64::INFINITY,
     };
     let work = &scene.packing.method.info().work;
     let mut estimate = problem.estimate(moves, work).map_err(fail)?;

@@ -1,7 +1,9 @@
 //! What is known about a packing, for machines: the content of report.json.
 
 use serde::Serialize;
-use sphpack_packing::{DensityQuality, MassCorrection, ResidualQuality, Sample, SurfaceQuality};
+use sphpack_packing::{
+    DensityQuality, HistoryPoint, MassCorrection, ResidualQuality, SurfaceQuality,
+};
 
 use crate::audit::Audit;
 use crate::scene::Scene;
@@ -252,8 +254,8 @@ pub struct History {
     pub seconds: f64,
 }
 
-impl From<&Sample> for History {
-    fn from(sample: &Sample) -> Self {
+impl From<&HistoryPoint> for History {
+    fn from(sample: &HistoryPoint) -> Self {
         Self {
             evaluation: sample.evaluation,
             energy: sample.energy,

@@ -90,7 +90,7 @@ where
         .then(|| corrected::correct(&judge, &mut packed, &sorted, scene.packing.mass_spread));
     let fields = packed.fields(judge.kernel, judge.h_over_spacing);
     let Sorted { labels, keep } = sorted;
-    let quality = packed.quality(&fields);
+    let quality = packed.quality_by(&fields);
     let solution = Solution {
         problem,
         packed,

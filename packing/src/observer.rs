@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 /// What a packing is busy with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Phase {
+pub enum Stage {
     /// Surfaces are moved inward, areas and counts are taken.
     Geometry,
     /// Particles are placed on the lattice.
@@ -16,7 +16,7 @@ pub enum Phase {
     Settling,
 }
 
-impl Phase {
+impl Stage {
     /// The word that progress lines use.
     pub fn name(self) -> &'static str {
         match self {
@@ -32,7 +32,7 @@ impl Phase {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// What it is busy with.
-    pub phase: Phase,
+    pub stage: Stage,
     /// Force evaluations so far.
     pub evaluation: usize,
     /// The evaluation at which it gives up.
@@ -51,7 +51,7 @@ pub struct Progress {
 
 /// A line of a packing's history.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+pub struct HistoryPoint {
     /// Force evaluations so far.
     pub evaluation: usize,
     /// Energy of background pressure and repulsion, per particle and in units of p_b V.
@@ -68,7 +68,7 @@ pub struct Sample {
 ///
 /// Nothing that an observer does changes the result, except when it stops.
 pub trait Observer {
-    /// Called at the start of every phase, and every few evaluations. `Break` ends the packing with what there is.
+    /// Called at the start of every stage, and every few evaluations. `Break` ends the packing with what there is.
     fn progress(&mut self, progress: &Progress) -> ControlFlow<()>;
 
     /// Who keeps states to go on from, should this run end too early.

@@ -7,7 +7,7 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
 use crate::lattice::{Filling, Lattice};
-use crate::observer::Sample;
+use crate::observer::HistoryPoint;
 use crate::particles::Particles;
 
 /// Why a packing stopped.
@@ -109,7 +109,7 @@ pub struct Packed<const D: usize> {
     /// Evaluations of density and force.
     pub force_evaluations: usize,
     /// Figures along the way.
-    pub history: Vec<Sample>,
+    pub history: Vec<HistoryPoint>,
     /// Where the time went.
     pub seconds: Seconds,
 }

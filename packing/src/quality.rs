@@ -239,8 +239,13 @@ impl<const D: usize> Packed<D> {
         )
     }
 
-    /// Every measure of the packing, from its fields.
-    pub fn quality(&self, fields: &Fields<D>) -> Quality {
+    /// Every measure of the packing, by the kernel that packed.
+    pub fn quality(&self) -> Quality {
+        self.quality_by(&self.fields(self.kernel, self.h_over_spacing))
+    }
+
+    /// Every measure of the packing, from its [`Packed::fields`].
+    pub fn quality_by(&self, fields: &Fields<D>) -> Quality {
         let particles = &self.particles;
         let of_kind = |wanted: fn(Kind) -> bool| {
             (0..particles.len()).filter(move |&i| wanted(particles.kind[i]))

@@ -8,7 +8,8 @@ use sphpack_neighbors::Domain;
 
 use crate::{
     Agitated, Balanced, Complex, Coupled, Damaged, Finish, Hybrid, Keeper, MinimiserKind, Observer,
-    Packed, PackingError, Phase, Ppa, Problem, Progress, Relaxation, Settling, Silent, Standard,
+    Packed, PackingError, Ppa, Problem, Progress, Relaxation, RunLog, Settling, Silent, Stage,
+    Standard,
 };
 
 type Pack<'a, const D: usize> = &'a dyn Fn(&mut dyn Observer) -> Result<Packed<D>, PackingError>;
@@ -26,7 +27,7 @@ struct Recorder {
 
 impl Observer for Recorder {
     fn progress(&mut self, progress: &Progress) -> ControlFlow<()> {
-        let is_moving = matches!(progress.phase, Phase::Capture | Phase::Settling);
+        let is_moving = matches!(progress.stage, Stage::Capture | Stage::Settling);
         match self.steps {
             Some(most) if is_moving && self.asked >= most => ControlFlow::Break(()),
             _ => ControlFlow::Continue(()),
@@ -156,7 +157,7 @@ fn balanced() {
             },
             ..Balanced::default()
         };
-        check(&|observer| balanced.pack_in(&problem, observer));
+        check(&|observer| balanced.pack_in(&problem, &mut RunLog::new(observer)));
     }
 }
 
@@ -172,7 +173,7 @@ fn balanced_in_a_periodic_box_with_a_band() {
         },
         ..Balanced::default()
     };
-    check(&|observer| balanced.pack_in(&problem, observer));
+    check(&|observer| balanced.pack_in(&problem, &mut RunLog::new(observer)));
 }
 
 #[test]
@@ -187,7 +188,7 @@ fn balanced_in_space() {
         },
         ..Balanced::default()
     };
-    check(&|observer| balanced.pack_in(&problem, observer));
+    check(&|observer| balanced.pack_in(&problem, &mut RunLog::new(observer)));
 }
 
 #[test]
@@ -197,14 +198,14 @@ fn hybrid() {
         velocity_tolerance: 1e-3,
         ..Hybrid::default()
     };
-    check(&|observer| hybrid.pack_in(&problem, observer));
+    check(&|observer| hybrid.pack_in(&problem, &mut RunLog::new(observer)));
     let accelerated = Hybrid {
         settling: Some(Settling::default()),
         predicted: 0.9,
         moving_over_spacing: 3.5,
         ..Hybrid::default()
     };
-    check(&|observer| accelerated.pack_in(&problem, observer));
+    check(&|observer| accelerated.pack_in(&problem, &mut RunLog::new(observer)));
 }
 
 #[test]
@@ -213,7 +214,7 @@ fn standard() {
         max_iterations: 400,
         ..Standard::default()
     };
-    check(&|observer| standard.pack_in(&discs(0.12), observer));
+    check(&|observer| standard.pack_in(&discs(0.12), &mut RunLog::new(observer)));
 }
 
 #[test]
@@ -223,7 +224,7 @@ fn coupled() {
         max_iterations: 200,
         ..Coupled::default()
     };
-    check(&|observer| coupled.pack_in(&discs(0.12), observer));
+    check(&|observer| coupled.pack_in(&discs(0.12), &mut RunLog::new(observer)));
 }
 
 #[test]
@@ -233,7 +234,7 @@ fn agitated() {
         max_iterations: 700,
         ..Agitated::default()
     };
-    check(&|observer| agitated.pack_in(&discs(0.15), observer));
+    check(&|observer| agitated.pack_in(&discs(0.15), &mut RunLog::new(observer)));
 }
 
 #[test]
@@ -242,7 +243,7 @@ fn ppa() {
         max_iterations: 400,
         ..Ppa::default()
     };
-    check(&|observer| ppa.pack_in(&discs(0.12), observer));
+    check(&|observer| ppa.pack_in(&discs(0.12), &mut RunLog::new(observer)));
 }
 
 #[test]
@@ -251,7 +252,7 @@ fn relaxation() {
         max_iterations: 300,
         ..Relaxation::default()
     };
-    check(&|observer| relaxation.pack_in(&discs(0.12), observer));
+    check(&|observer| relaxation.pack_in(&discs(0.12), &mut RunLog::new(observer)));
 }
 
 #[test]
@@ -263,5 +264,5 @@ fn complex() {
         },
         ..Complex::default()
     };
-    check(&|observer| complex.pack_in(&discs(0.12), observer));
+    check(&|observer| complex.pack_in(&discs(0.12), &mut RunLog::new(observer)));
 }

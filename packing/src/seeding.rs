@@ -71,18 +71,6 @@ pub struct Seeds<const D: usize> {
 }
 
 impl<const D: usize> Seeds<D> {
-    /// Adds to `solids` what is around them: the sites outside every body, and the frozen ones.
-    pub(crate) fn surround(&self, problem: &Problem<D>, solids: &mut Particles<D>) {
-        let lattice = &self.particles;
-        let is_fluid = |p: [f64; D]| !problem.bodies.iter().any(|body| body.surface.inside(p));
-        for i in 0..lattice.len() {
-            let (p, kind) = (lattice.position[i], lattice.kind[i]);
-            if kind == Kind::Frozen || is_fluid(p) {
-                solids.push(p, kind, lattice.volume[i], None);
-            }
-        }
-    }
-
     /// The particles of the box, surrounded by frozen ones of the given volume.
     pub(crate) fn surrounded(
         problem: &Problem<D>,

@@ -231,7 +231,7 @@ pub(crate) fn all_finite<const D: usize>(places: &[[f64; D]]) -> bool {
     (places.iter().flatten()).all(|x| x.is_finite())
 }
 
-/// What changes: ids, volumes and bodies stay as they were seeded, but see [`Captured`].
+/// What changes: ids, volumes and bodies stay as they were seeded, but where a method captures particles.
 impl<const D: usize> State for Particles<D> {
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
         self.position.save(out)?;
@@ -242,27 +242,5 @@ impl<const D: usize> State for Particles<D> {
         load_as_many(&mut self.position, from)?;
         load_as_many(&mut self.kind, from)?;
         all_finite(&self.position).then_some(()).ok_or(Damaged)
-    }
-}
-
-/// Particles that come to belong to one of so many bodies when they are captured.
-pub(crate) struct Captured<'a, const D: usize> {
-    pub(crate) particles: &'a mut Particles<D>,
-    pub(crate) bodies: usize,
-}
-
-impl<const D: usize> State for Captured<'_, D> {
-    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.particles.save(out)?;
-        self.particles.body.save(out)
-    }
-
-    fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
-        self.particles.load(from)?;
-        load_as_many(&mut self.particles.body, from)?;
-        let mut bodies = self.particles.body.iter().flatten();
-        (bodies.all(|&body| usize::from(body) < self.bodies))
-            .then_some(())
-            .ok_or(Damaged)
     }
 }

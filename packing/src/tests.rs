@@ -9,11 +9,11 @@ use sphpack_neighbors::random::Congruential;
 use sphpack_neighbors::{Domain, point};
 
 use crate::forces::Forces;
-use crate::method::Method;
+use crate::methods::Method;
 use crate::seeding::seed;
 use crate::{
-    Hybrid, Kind, Lattice, Observer, Packed, PackingError, Particles, Problem, Progress, Silent,
-    StopReason, Work,
+    Hybrid, Kind, Lattice, Observer, Packed, PackingError, Particles, Problem, Progress, RunLog,
+    Silent, StopReason, Work,
 };
 use sphpack_pairs::Repulsion;
 
@@ -131,13 +131,13 @@ fn cylinder(spacing: f64) -> Problem<2> {
 }
 
 fn quality<const D: usize>(packed: &Packed<D>) -> crate::Quality {
-    packed.quality(&packed.fields(packed.kernel, packed.h_over_spacing))
+    packed.quality_by(&packed.fields(packed.kernel, packed.h_over_spacing))
 }
 
 #[test]
 fn hybrid_packs_a_cylinder() {
     let packed = Hybrid::default()
-        .pack(&cylinder(0.1), &mut Silent)
+        .pack(&cylinder(0.1), &mut RunLog::new(&mut Silent))
         .expect("packs");
     assert_eq!(packed.stop_reason, StopReason::Converged);
     let quality = quality(&packed);
@@ -175,7 +175,7 @@ fn hybrid_fixes_the_corners_of_a_box() {
     let body = Cuboid::new([-0.5, -0.5], [0.5, 0.5]).expect("a sound box");
     let problem = Problem::new(Domain::new([-1.0; 2], [1.0; 2]), 0.1).body("box", body);
     let packed = Hybrid::default()
-        .pack(&problem, &mut Silent)
+        .pack(&problem, &mut RunLog::new(&mut Silent))
         .expect("packs");
     assert_eq!(packed.particles.count(Kind::Fixed), 4);
     for i in (0..packed.particles.len()).filter(|&i| packed.particles.kind[i] == Kind::Fixed) {
@@ -201,7 +201,7 @@ fn the_same_bits_for_any_number_of_threads() {
             ..Hybrid::default()
         };
         let packed = pool
-            .install(|| method.pack(&problem, &mut Silent))
+            .install(|| method.pack(&problem, &mut RunLog::new(&mut Silent)))
             .expect("packs");
         let measured = pool.install(|| quality(&packed));
         (packed.particles, measured)
@@ -221,7 +221,11 @@ fn scene_units_do_not_matter() {
             max_iterations: 200,
             ..Hybrid::default()
         };
-        quality(&method.pack(&problem, &mut Silent).expect("packs"))
+        quality(
+            &method
+                .pack(&problem, &mut RunLog::new(&mut Silent))
+                .expect("packs"),
+        )
     };
     let (small, one, large) = (at(1e-6), at(1.0), at(1e6));
     for other in [small, large] {
@@ -238,7 +242,7 @@ fn a_box_without_bodies_is_at_rest() {
     let packed = Hybrid::default()
         .pack(
             &Problem::new(Domain::new([0.0; 2], [1.0; 2]), 0.1),
-            &mut Silent,
+            &mut RunLog::new(&mut Silent),
         )
         .expect("packs");
     assert_eq!(packed.stop_reason, StopReason::Converged);
@@ -250,7 +254,7 @@ fn a_periodic_channel() {
     let mut problem = cylinder(0.1);
     problem.domain = problem.domain.with_periodic([true, false]);
     let packed = Hybrid::default()
-        .pack(&problem, &mut Silent)
+        .pack(&problem, &mut RunLog::new(&mut Silent))
         .expect("packs");
     assert!(
         packed
@@ -280,7 +284,7 @@ impl Observer for StopAt {
 fn an_observer_stops_a_packing_at_any_time() {
     for calls in [0, 1, 2, 5] {
         let packed = Hybrid::default()
-            .pack(&cylinder(0.1), &mut StopAt(calls))
+            .pack(&cylinder(0.1), &mut RunLog::new(&mut StopAt(calls)))
             .expect("packs");
         assert_eq!(packed.stop_reason, StopReason::Interrupted);
         assert!(
@@ -300,7 +304,7 @@ fn senseless_problems_are_refused() {
         let mut problem = cylinder(0.1);
         change(&mut problem);
         let error = Hybrid::default()
-            .pack(&problem, &mut Silent)
+            .pack(&problem, &mut RunLog::new(&mut Silent))
             .expect_err("refused");
         assert!(is_expected(&error), "{error}");
         assert_eq!(

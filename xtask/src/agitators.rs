@@ -7,7 +7,7 @@ use sphpack::scene::{AgitatorsAre, Method as Named};
 use sphpack::{Options, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
-use sphpack_packing::{Agitated, Agitators, Lattice, Method, Packed, Problem, Silent};
+use sphpack_packing::{Agitated, Agitators, Lattice, Method, Packed, Problem, RunLog, Silent};
 
 use crate::chart::{Axis, Chart, Scale, Series};
 use crate::selection::Selection;
@@ -168,7 +168,7 @@ where
                 ..Agitated::default()
             };
             let packed: Packed<D> = method
-                .pack(&problem, &mut Silent)
+                .pack(&problem, &mut RunLog::new(&mut Silent))
                 .map_err(|error| error.to_string())?;
             let at = |iteration: usize| {
                 (packed.history.iter())

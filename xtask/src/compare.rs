@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::time::Instant;
 
-use sphpack::scene::{METHODS, Method};
+use sphpack::scene::Method;
 use sphpack::{Options, Report, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_packing::Silent;
@@ -86,18 +86,19 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         if !selection.wants(name, quick) {
             continue;
         }
-        for info in METHODS
-            .iter()
-            .filter(|info| info.is_available && info.dimensions.contains(&dimension))
-            // Its walls are no particles of a body.
-            .filter(|info| info.method != Method::Ppa)
-            .filter(|info| (settings.method.as_ref()).is_none_or(|only| only == info.name))
+        for (method, info) in (Method::ALL
+            .map(|method| (method, method.info()))
+            .into_iter())
+        .filter(|(_, info)| info.dimensions.contains(&dimension))
+        // Its walls are no particles of a body.
+        .filter(|(method, _)| *method != Method::Ppa)
+        .filter(|(_, info)| (settings.method.as_ref()).is_none_or(|only| only == info.name))
         {
             let Some(mut scene) = load(name, selection)? else {
                 continue;
             };
             scene.spacing = spacing;
-            scene.packing.method = info.method;
+            scene.packing.method = method;
             if dimension == 3 {
                 scene.packing.max_iterations = PATIENCE_IN_SPACE;
             }
@@ -108,7 +109,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
                 .map_err(|error| error.to_string())?;
             let seconds = start.elapsed().as_secs_f64();
             let line = line(name, info.name, &outcome.report, seconds);
-            if info.method != Method::Clipped {
+            if method != Method::Clipped {
                 let place = [seconds, 100.0 * outcome.report.density.linf];
                 match clouds.iter_mut().find(|cloud| cloud.name == info.name) {
                     Some(cloud) => cloud.points.push(place),

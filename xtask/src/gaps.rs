@@ -7,7 +7,9 @@ use std::path::PathBuf;
 use sphpack_geometry::{Outline, Surface};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, KdTree, point};
-use sphpack_packing::{Complex, Fields, Method, Packed, Particles, Problem, Relaxation, Silent};
+use sphpack_packing::{
+    Complex, Fields, Method, Packed, Particles, Problem, Relaxation, RunLog, Silent,
+};
 
 use crate::parsed::parsed;
 use crate::selection::Selection;
@@ -111,7 +113,7 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
             ..Relaxation::default()
         };
         let apart = |bodies: &[Outline]| {
-            let packed = relaxation.pack(&problem(airfoil, bodies), &mut Silent);
+            let packed = relaxation.pack(&problem(airfoil, bodies), &mut RunLog::new(&mut Silent));
             packed.map_err(|e| error(&e))
         };
         let together = |bodies: &[Outline]| {
@@ -119,7 +121,7 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
                 relaxation,
                 ..Complex::default()
             };
-            let packed = complex.pack(&problem(airfoil, bodies), &mut Silent);
+            let packed = complex.pack(&problem(airfoil, bodies), &mut RunLog::new(&mut Silent));
             packed.map_err(|e| error(&e))
         };
         let with = apart(&solid)?;

@@ -35,7 +35,7 @@ fn after(damage: impl Fn(&mut Solution<2>)) -> Audit {
     damage(&mut solution);
     let packed = &solution.packed;
     solution.fields = packed.fields(packed.kernel, packed.h_over_spacing);
-    solution.quality = packed.quality(&solution.fields);
+    solution.quality = packed.quality_by(&solution.fields);
     let volumes = content::volumes(&solution.problem, &solution);
     Audit::of(&scene, &solution, &volumes)
 }

@@ -124,7 +124,7 @@ impl Keeping {
 
     /// Notes where the packing stands, and whether it is being stopped.
     pub(super) fn note(&mut self, progress: &Progress, is_stopped: bool) {
-        progress.phase.name().clone_into(&mut self.reached.phase);
+        progress.stage.name().clone_into(&mut self.reached.phase);
         self.reached.evaluation = progress.evaluation as u64;
         self.reached.seconds = progress.seconds;
         self.is_stopped = is_stopped;

@@ -3,25 +3,20 @@
 use std::fmt::Write as _;
 
 use sphpack_kernels::KernelKind;
-use sphpack_packing::Lattice;
+use sphpack_packing::{Lattice, MethodInfo};
 
 use super::arguments::What;
 use super::say;
 use crate::Error;
 use crate::error::DONE;
-use crate::scene::{METHODS, Method, SHAPES};
+use crate::scene::{Method, SHAPES};
 
 pub(super) fn run(what: What) -> Result<u8, Error> {
     let mut text = String::new();
     match what {
         What::Methods => {
-            for info in METHODS {
-                let missing = if info.is_available {
-                    ""
-                } else {
-                    " (not in this version yet)"
-                };
-                let _ = writeln!(text, "{:12} {}{missing}", info.name, info.summary);
+            for info in Method::ALL.map(Method::info) {
+                let _ = writeln!(text, "{:12} {}", info.name, info.summary);
             }
         }
         What::Kernels => {
@@ -40,7 +35,11 @@ pub(super) fn run(what: What) -> Result<u8, Error> {
             }
         }
         What::Lattices => {
-            let (kernel, h_over_spacing) = Method::default().kernel();
+            let MethodInfo {
+                kernel,
+                h_over_spacing,
+                ..
+            } = *Method::default().info();
             let _ = writeln!(
                 text,
                 "{:12} by kernel and h/∆s; {} in 2-D, {} in 3-D with the default ones (the default)",

@@ -4,7 +4,7 @@ use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use sphpack_packing::{Keeper, Observer, Phase, Progress};
+use sphpack_packing::{Keeper, Observer, Progress, Stage};
 
 use super::duration::duration;
 use super::interrupt;
@@ -28,9 +28,9 @@ enum Style {
 #[derive(Debug)]
 pub(super) struct Watcher {
     style: Style,
-    shown: Option<(Phase, Instant)>,
-    /// Phase, evaluation and criterion some time ago and more lately, for a guess of the end.
-    anchors: [Option<(Phase, usize, f64)>; 2],
+    shown: Option<(Stage, Instant)>,
+    /// Stage, evaluation and criterion some time ago and more lately, for a guess of the end.
+    anchors: [Option<(Stage, usize, f64)>; 2],
     keeping: Keeping,
 }
 
@@ -69,11 +69,11 @@ impl Watcher {
         };
         let is_due = self
             .shown
-            .is_none_or(|(phase, when)| phase != progress.phase || when.elapsed() >= wait);
+            .is_none_or(|(phase, when)| phase != progress.stage || when.elapsed() >= wait);
         if !is_due {
             return;
         }
-        self.shown = Some((progress.phase, Instant::now()));
+        self.shown = Some((progress.stage, Instant::now()));
         self.write(&self.line(progress));
     }
 
@@ -87,7 +87,7 @@ impl Watcher {
     }
 
     fn line(&self, progress: &Progress) -> String {
-        let name = progress.phase.name();
+        let name = progress.stage.name();
         if progress.evaluation == 0 {
             return format!("{name:10} …");
         }
@@ -116,21 +116,21 @@ impl Watcher {
     fn evaluations_left(&self, progress: &Progress) -> Option<f64> {
         let limit = progress.max_evaluations.saturating_sub(progress.evaluation) as f64;
         let (_, evaluation, criterion) =
-            self.anchors[0].filter(|start| start.0 == progress.phase)?;
+            self.anchors[0].filter(|start| start.0 == progress.stage)?;
         let fall = (criterion / progress.criterion).ln();
         let to_go = (progress.criterion / progress.tolerance).ln();
         let done = progress.evaluation.saturating_sub(evaluation) as f64;
-        (progress.phase == Phase::Settling && fall > 0.1 && to_go.is_finite())
+        (progress.stage == Stage::Settling && fall > 0.1 && to_go.is_finite())
             .then(|| (done * to_go.max(0.0) / fall).min(limit))
     }
 }
 
 impl Observer for Watcher {
     fn progress(&mut self, progress: &Progress) -> ControlFlow<()> {
-        let here = (progress.phase, progress.evaluation, progress.criterion);
+        let here = (progress.stage, progress.evaluation, progress.criterion);
         if progress.criterion.is_finite() {
             match self.anchors {
-                [_, Some((phase, evaluation, _))] if phase == progress.phase => {
+                [_, Some((phase, evaluation, _))] if phase == progress.stage => {
                     if progress.evaluation >= evaluation + ANCHOR_EVALUATIONS {
                         self.anchors = [self.anchors[1], Some(here)];
                     }
@@ -138,7 +138,7 @@ impl Observer for Watcher {
                 _ => self.anchors = [Some(here); 2],
             }
         }
-        if matches!(progress.phase, Phase::Capture | Phase::Settling) {
+        if matches!(progress.stage, Stage::Capture | Stage::Settling) {
             interrupt::has_begun();
         }
         self.show(progress);

@@ -277,16 +277,6 @@ impl Scene {
         let packing = &self.packing;
         let at = |name| [Key::Name("packing"), Key::Name(name)];
         let info = packing.method.info();
-        if !info.is_available {
-            return fault(
-                &at("method"),
-                format!(
-                    "the method \"{}\" is not in this version yet; use {}",
-                    info.name,
-                    Method::available().join(", ")
-                ),
-            );
-        }
         let solid = (self.body.iter()).find(|body| body.role == Role::Solid);
         if let (false, Some(body)) = (info.fills_bodies, solid) {
             return fault(

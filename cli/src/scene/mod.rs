@@ -17,10 +17,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sphpack_kernels::KernelKind;
-use sphpack_packing::{Complex, Hybrid, Kind, Lattice, MinimiserKind, Settling};
+use sphpack_packing::{Band, Complex, Hybrid, Kind, Lattice, MinimiserKind, Settling};
 
 pub use fault::Fault;
-pub use method::{METHODS, Method, MethodInfo, UnknownMethod};
+pub use method::{Method, UnknownMethod};
 pub use named::Inset;
 pub(crate) use named::kernel_by_name;
 pub(crate) use nearest::advice;
@@ -299,7 +299,7 @@ const CORRECTED_LEVELLING: f64 = 200.0;
 impl PackingSpec {
     /// The kernel that packs.
     pub fn kernel(&self) -> KernelKind {
-        self.kernel.unwrap_or(self.method.kernel().0)
+        self.kernel.unwrap_or(self.method.info().kernel)
     }
 
     /// The lattice to start from, in so many dimensions; `None` is the one of least Γ.
@@ -313,7 +313,7 @@ impl PackingSpec {
 
     /// Its smoothing length over ∆s.
     pub fn h_over_spacing(&self) -> f64 {
-        self.h_over_spacing.unwrap_or(self.method.kernel().1)
+        (self.h_over_spacing).unwrap_or(self.method.info().h_over_spacing)
     }
 
     /// Evaluations until particles are at rest, or until no more are allowed, in the middle of what scenes take.
@@ -323,6 +323,14 @@ impl PackingSpec {
             // What a body does to its surroundings falls off so slowly that some hundred more are needed for 10⁻⁵.
             (Method::Balanced, Finish::Consistent) => (500_f64).min(self.max_iterations as f64),
             _ => work.evaluations_within(self.max_iterations),
+        }
+    }
+
+    /// Which particles a method moves that leaves some on their lattice.
+    pub fn band(&self) -> Band {
+        match self.band {
+            BandWidth::Auto => Band::Auto,
+            BandWidth::Full => Band::Full,
         }
     }
 

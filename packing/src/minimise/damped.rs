@@ -2,8 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Landscape, Minimiser, Step, vectors};
-use crate::motion::time_step;
+use super::{Energy, Minimiser, Step, vectors};
 use crate::state::{Damaged, State};
 use sphpack_neighbors::point;
 
@@ -18,19 +17,25 @@ pub struct Damped<const D: usize> {
 /// C_ζ; 001 gives 0.2 … 0.5.
 const DAMPING: f64 = 0.2;
 
+/// The time step of 001 eq. 25 (Negi and Ramachandran) for a background pressure `pressure`: no farther than a tenth of `h` by what
+/// the pressure does from rest, nor by damping `zeta` at the speed of the `fastest`.
+pub(crate) fn time_step(h: f64, zeta: f64, pressure: f64, fastest: f64) -> f64 {
+    (0.1 * h / pressure.sqrt()).min((0.1 * h / (zeta * fastest)).sqrt())
+}
+
 impl<const D: usize> Minimiser<D> for Damped<D> {
-    fn step(&mut self, landscape: &mut Landscape<'_, D>) -> Step {
-        let h = landscape.smoothing_length();
-        let zeta = DAMPING / landscape.spacing();
-        self.velocity.resize(landscape.len(), [0.0; D]);
+    fn step(&mut self, energy: &mut Energy<'_, D>) -> Step {
+        let h = energy.smoothing_length();
+        let zeta = DAMPING / energy.spacing();
+        self.velocity.resize(energy.len(), [0.0; D]);
         let dt = time_step(h, zeta, 1.0, self.fastest);
-        for (u, &force) in self.velocity.iter_mut().zip(landscape.force()) {
+        for (u, &force) in self.velocity.iter_mut().zip(energy.force()) {
             *u = point::add_scaled(*u, dt, point::add_scaled(force, -zeta, *u));
         }
-        landscape.make_tangential(&mut self.velocity);
+        energy.make_tangential(&mut self.velocity);
         self.fastest = vectors::longest(&self.velocity);
-        landscape.places(&mut self.place);
-        landscape.move_to(&self.place, dt, &self.velocity);
+        energy.places(&mut self.place);
+        energy.move_to(&self.place, dt, &self.velocity);
         Step::Taken
     }
 

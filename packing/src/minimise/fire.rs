@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Landscape, Minimiser, Step, vectors};
+use super::{Energy, Minimiser, Step, vectors};
 use crate::state::{Damaged, State, Value};
 use sphpack_neighbors::point;
 
@@ -46,9 +46,13 @@ impl<const D: usize> Default for Fire<D> {
 }
 
 impl<const D: usize> Minimiser<D> for Fire<D> {
-    fn step(&mut self, landscape: &mut Landscape<'_, D>) -> Step {
-        self.velocity.resize(landscape.len(), [0.0; D]);
-        let force = landscape.force();
+    fn step(&mut self, energy: &mut Energy<'_, D>) -> Step {
+        self.velocity.resize(energy.len(), [0.0; D]);
+        let (h, limit) = (
+            energy.smoothing_length(),
+            self.step_over_spacing * energy.spacing(),
+        );
+        let force = energy.force();
         let power = vectors::dot(&self.velocity, force);
         if power > 0.0 {
             self.downhill += 1;
@@ -62,7 +66,7 @@ impl<const D: usize> Minimiser<D> for Fire<D> {
             self.steer = STEER;
             self.velocity.fill([0.0; D]);
         }
-        let dt = self.dt_over_h * landscape.smoothing_length();
+        let dt = self.dt_over_h * h;
         for (u, &force) in self.velocity.iter_mut().zip(force) {
             *u = point::add_scaled(*u, dt, force);
         }
@@ -74,14 +78,13 @@ impl<const D: usize> Minimiser<D> for Fire<D> {
                 *u = point::add_scaled(along, 1.0 - self.steer, *u);
             }
         }
-        landscape.make_tangential(&mut self.velocity);
+        energy.make_tangential(&mut self.velocity);
         let longest = dt * vectors::longest(&self.velocity);
-        let limit = self.step_over_spacing * landscape.spacing();
         if longest > limit {
             vectors::scale(&mut self.velocity, limit / longest);
         }
-        landscape.places(&mut self.place);
-        landscape.move_to(&self.place, dt, &self.velocity);
+        energy.places(&mut self.place);
+        energy.move_to(&self.place, dt, &self.velocity);
         Step::Taken
     }
 

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::history::{History, Taken};
-use super::{Landscape, Minimiser, Step, vectors};
+use super::{Energy, Minimiser, Step, vectors};
 use crate::Damaged;
 
 /// Limited-memory BFGS (Nocedal & Wright, Numerical Optimization, algorithm 7.4). Steps are capped, their directions
@@ -48,33 +48,33 @@ impl<const D: usize> Default for Lbfgs<D> {
 }
 
 impl<const D: usize> Lbfgs<D> {
-    fn find_direction(&mut self, landscape: &Landscape<'_, D>) {
-        let first = FIRST_OVER_H2 * landscape.smoothing_length().powi(2);
+    fn find_direction(&mut self, energy: &Energy<'_, D>) {
+        let first = FIRST_OVER_H2 * energy.smoothing_length().powi(2);
         self.history
             .direction(&self.force, first, &mut self.direction);
-        landscape.make_tangential(&mut self.direction);
+        energy.make_tangential(&mut self.direction);
     }
 
-    fn remember(&mut self, landscape: &Landscape<'_, D>) {
-        landscape.places(&mut self.next);
+    fn remember(&mut self, energy: &mut Energy<'_, D>) {
+        energy.places(&mut self.next);
         let taken = Taken {
             from: &self.place,
             to: &self.next,
             force_before: &self.force,
-            force: landscape.force(),
+            force: energy.force(),
         };
         self.history.remember(taken, self.memory);
     }
 }
 
 impl<const D: usize> Minimiser<D> for Lbfgs<D> {
-    fn step(&mut self, landscape: &mut Landscape<'_, D>) -> Step {
-        landscape.places(&mut self.place);
+    fn step(&mut self, energy: &mut Energy<'_, D>) -> Step {
+        energy.places(&mut self.place);
         self.force.clear();
-        self.force.extend_from_slice(landscape.force());
-        let before = landscape.energy();
+        self.force.extend_from_slice(energy.force());
+        let before = energy.value();
         loop {
-            self.find_direction(landscape);
+            self.find_direction(energy);
             let mut slope = vectors::dot(&self.direction, &self.force);
             let mut longest = vectors::longest(&self.direction);
             if slope.is_nan() || slope <= 0.0 || longest.is_nan() {
@@ -84,7 +84,7 @@ impl<const D: usize> Minimiser<D> for Lbfgs<D> {
                 self.history.clear();
                 continue;
             }
-            let limit = self.step_over_spacing * landscape.spacing();
+            let limit = self.step_over_spacing * energy.spacing();
             if longest > limit {
                 vectors::scale(&mut self.direction, limit / longest);
                 slope *= limit / longest;
@@ -92,12 +92,12 @@ impl<const D: usize> Minimiser<D> for Lbfgs<D> {
             }
             let mut part = 1.0;
             for _ in 0..TRIALS {
-                landscape.move_to(&self.place, part, &self.direction);
-                let rise = landscape.energy() - before;
+                energy.move_to(&self.place, part, &self.direction);
+                let rise = energy.value() - before;
                 let rounding = ROUNDING * before.abs();
                 let is_rounding = part * slope <= 10.0 * rounding && rise <= rounding;
                 if rise <= -SUFFICIENT * part * slope || is_rounding {
-                    self.remember(landscape);
+                    self.remember(energy);
                     return Step::Taken;
                 }
                 // The lowest point of the parabola through what is known.
@@ -105,7 +105,7 @@ impl<const D: usize> Minimiser<D> for Lbfgs<D> {
                 part = lowest.clamp(0.1 * part, 0.5 * part);
             }
             if self.history.is_empty() || longest <= 0.0 {
-                landscape.move_to(&self.place, 0.0, &self.direction);
+                energy.move_to(&self.place, 0.0, &self.direction);
                 return Step::Stuck;
             }
             self.history.clear();

@@ -6,7 +6,7 @@
 //! | [`Fire`] | dynamics that is stopped where it runs uphill, and hastened where it does not | Bitzek et al., PRL 97, 170201 (2006) |
 //! | [`Lbfgs`] | quasi-Newton steps from the last few gradients, with a line search | Nocedal & Wright, Numerical Optimization, ch. 7 |
 //!
-//! All work on a [`Landscape`]: the energy of pressure and repulsion over the places of the mobile particles, boundary
+//! All work on a [`Energy`]: the energy of pressure and repulsion over the places of the mobile particles, boundary
 //! particles held on their surfaces. [`Settling`] is the schedule that methods share.
 //!
 //! # What was tried and dropped
@@ -25,11 +25,11 @@
 //! - A few dozen careful FIRE steps before L-BFGS: capped L-BFGS steps reach the same density in fewer evaluations
 //!   from the start (63 instead of 103 on every 2-D scene here).
 
-mod calm;
 mod damped;
+mod energy;
 mod fire;
+mod gradient_penalty;
 mod history;
-mod landscape;
 mod lbfgs;
 mod settling;
 mod sides;
@@ -38,10 +38,12 @@ mod tests;
 mod vectors;
 mod walls;
 
-pub use calm::Calm;
 pub use damped::Damped;
+#[cfg(feature = "published")]
+pub(crate) use damped::time_step;
+pub use energy::Energy;
 pub use fire::Fire;
-pub use landscape::Landscape;
+pub use gradient_penalty::GradientPenalty;
 pub use lbfgs::Lbfgs;
 pub use settling::{Finish, Settling};
 
@@ -62,17 +64,16 @@ pub enum Step {
 
 /// Goes down an energy, step by step.
 pub trait Minimiser<const D: usize>: fmt::Debug {
-    /// One step from where the landscape stands, which costs one evaluation or, in a line search, a few. Leaves the
-    /// landscape evaluated where the particles are.
-    fn step(&mut self, landscape: &mut Landscape<'_, D>) -> Step;
+    /// One step from where the particles are, which costs one evaluation or, in a line search, a few.
+    fn step(&mut self, energy: &mut Energy<'_, D>) -> Step;
 
-    /// Forgets what earlier steps taught: the energy has become another one.
+    /// Forgets what earlier steps taught: the energy has become another one, or other particles move.
     fn reset(&mut self);
 
     /// Appends all that earlier steps taught.
     fn save(&self, out: &mut dyn Write) -> io::Result<()>;
 
-    /// Takes what [`Minimiser::save`] appended off the front of `from`, for a landscape of `count` mobile particles.
+    /// Takes what [`Minimiser::save`] appended off the front of `from`, for a energy of `count` mobile particles.
     ///
     /// # Errors
     /// [`Damaged`] where it is not that; then the minimiser is of no use any more.

@@ -2,12 +2,12 @@
 
 use std::io::{self, Write};
 
-use super::{Landscape, Minimiser, MinimiserKind, Step};
-use crate::course::{Begin, Course};
+use super::{Energy, Minimiser, MinimiserKind, Step};
 use crate::forces::Levelling;
 use crate::packed::StopReason;
 use crate::problem::PackingError;
-use crate::state::{Damaged, State};
+use crate::run_log::{Begin, RunLog};
+use crate::state::{Damaged, State, Value, values};
 use sphpack_pairs::Repulsion;
 
 /// How particles are left.
@@ -134,137 +134,200 @@ impl Settling {
         }
     }
 
-    fn begin_end<const D: usize>(&self, landscape: &mut Landscape<'_, D>, perfect_gamma: f64) {
-        landscape.hold_surface();
-        landscape.set_levelling(self.last_levelling(perfect_gamma));
-        landscape.set_repulsion(self.last_repulsion(landscape.spacing()));
+    /// How particles of this spacing come to rest on a lattice whose undisturbed Γ is `perfect_gamma`: the stages, in
+    /// order.
+    pub(crate) fn schedule(&self, spacing: f64, perfect_gamma: f64) -> [SettlingStage; 2] {
+        [
+            SettlingStage {
+                repulsion: self.early_repulsion(spacing),
+                levelling: None,
+                is_surface_held: false,
+                most: self.early_evaluations * self.minimiser.pace(),
+            },
+            SettlingStage {
+                repulsion: self.last_repulsion(spacing),
+                levelling: self.last_levelling(perfect_gamma),
+                is_surface_held: true,
+                most: self.max_evaluations,
+            },
+        ]
     }
 
-    /// Settles the landscape's particles; its repulsion should be [`Settling::early_repulsion`]. With `is_again` they
-    /// have been through the strong repulsion before. `perfect_gamma` is Γ of the undisturbed lattice. Fails only where
-    /// it is to go on from a damaged state.
+    /// Settles the energy's particles, stage by stage; what has been through some of them before leaves them out. Fails
+    /// only where it is to go on from a damaged state.
     pub(crate) fn run<const D: usize>(
         &self,
-        landscape: &mut Landscape<'_, D>,
-        course: &mut Course<'_>,
-        perfect_gamma: f64,
-        is_again: bool,
+        energy: &mut Energy<'_, D>,
+        log: &mut RunLog<'_>,
+        stages: &[SettlingStage],
     ) -> Result<StopReason, PackingError> {
-        let minimiser = self.minimiser.build::<D>();
-        let mut begin = landscape.evaluations();
-        // Iterations with other evaluators.
-        let mut earlier = course.progress.evaluation.saturating_sub(begin);
-        let tolerance = self.tolerance();
-        let mut early = !is_again;
-        let mut noted = 0;
-        let (mut lowest, mut energy_then, mut lowest_at) = (f64::INFINITY, f64::INFINITY, begin);
-        let (mut halved, mut halved_at) = (f64::INFINITY, begin);
         let mut descent = Descent {
-            landscape,
-            minimiser,
+            energy,
+            minimiser: self.minimiser.build::<D>(),
+            stage: 0,
+            noted: 0,
+            progress: Standstill::from(0),
         };
-        let found = course.go_on(&mut [
-            &mut descent,
-            &mut begin,
-            &mut earlier,
-            &mut early,
-            &mut noted,
-            &mut lowest,
-            &mut energy_then,
-            &mut lowest_at,
-            &mut halved,
-            &mut halved_at,
-        ])?;
-        if found == Begin::Anew && is_again {
-            self.begin_end(descent.landscape, perfect_gamma);
+        let mut begin = descent.energy.evaluations();
+        // Iterations with other evaluators.
+        let mut earlier = log.progress.evaluation.saturating_sub(begin);
+        let tolerance = self.tolerance();
+        if log.go_on(&mut [&mut descent, &mut begin, &mut earlier])? == Begin::Anew {
+            stages[0].enter(descent.energy);
+            descent.energy.value();
+            begin = descent.energy.evaluations();
+            descent.progress = Standstill::from(begin);
         }
         let reason = loop {
-            if course.is_to_stop(&[
-                &descent,
-                &begin,
-                &earlier,
-                &early,
-                &noted,
-                &lowest,
-                &energy_then,
-                &lowest_at,
-                &halved,
-                &halved_at,
-            ]) {
+            if log.is_to_stop(&[&descent, &begin, &earlier]) {
                 break StopReason::Interrupted;
             }
             let Descent {
-                landscape,
+                energy,
                 minimiser,
+                stage,
+                noted,
+                progress,
             } = &mut descent;
-            if landscape.evaluations().saturating_sub(begin) >= self.max_evaluations {
+            if energy.evaluations().saturating_sub(begin) >= self.max_evaluations {
                 break StopReason::IterationLimit;
             }
-            let step = minimiser.step(landscape);
-            let evaluations = landscape.evaluations();
-            let residual = landscape.residual();
-            course.progress.evaluation = earlier + evaluations;
-            course.progress.criterion = residual;
-            course.tell();
-            if evaluations >= noted + NOTE_EVERY {
-                noted = evaluations;
-                course.note(landscape.forces(), landscape.particles());
+            if energy.take_changed() {
+                minimiser.reset();
             }
-            if early {
-                let over = evaluations - begin >= self.early_evaluations * self.minimiser.pace();
+            let step = minimiser.step(energy);
+            let residual = energy.residual();
+            let evaluations = energy.evaluations();
+            log.progress.evaluation = earlier + evaluations;
+            log.progress.criterion = residual;
+            log.tell();
+            if evaluations >= *noted + NOTE_EVERY {
+                *noted = evaluations;
+                let (forces, particles) = energy.evaluated();
+                log.note(forces, particles);
+            }
+            if let Some(next) = stages.get(*stage + 1) {
+                let over = evaluations - begin >= stages[*stage].most;
                 let settled = residual < EARLY_END * tolerance;
                 if over || settled || step == Step::Stuck {
-                    early = false;
-                    self.begin_end(landscape, perfect_gamma);
-                    minimiser.reset();
-                    (lowest, lowest_at) = (f64::INFINITY, evaluations);
-                    energy_then = landscape.energy();
-                    (halved, halved_at) = (f64::INFINITY, evaluations);
+                    *stage += 1;
+                    next.enter(energy);
+                    *progress = Standstill::from(evaluations);
+                    progress.energy_then = energy.value();
                 }
                 continue;
             }
             if residual < tolerance {
                 break StopReason::Converged;
             }
-            if step == Step::Stuck {
+            if step == Step::Stuck || progress.has_come(energy) {
                 break StopReason::Stagnated;
-            }
-            if residual < 0.5 * halved {
-                (halved, halved_at) = (residual, evaluations);
-            } else if evaluations > halved_at + LONG_PATIENCE {
-                break StopReason::Stagnated;
-            }
-            if residual < lowest {
-                (lowest, lowest_at, energy_then) = (residual, evaluations, landscape.energy());
-            } else if evaluations > lowest_at + PATIENCE {
-                let little = STANDSTILL * lowest.max(SMALL_FORCE) * landscape.len() as f64;
-                if energy_then - landscape.energy() < little {
-                    break StopReason::Stagnated;
-                }
-                (lowest_at, energy_then) = (evaluations, landscape.energy());
             }
         };
-        let landscape = descent.landscape;
-        course.note(landscape.forces(), landscape.particles());
-        course.seconds.projection += landscape.projection_seconds();
+        let energy = descent.energy;
+        let (forces, particles) = energy.evaluated();
+        log.note(forces, particles);
+        log.seconds.projection += energy.projection_seconds();
         Ok(reason)
     }
 }
 
-/// A minimiser on its landscape.
+/// One energy on the way to rest.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SettlingStage {
+    repulsion: Repulsion,
+    levelling: Option<Levelling>,
+    /// Whether boundary particles stay where they are, else they slide along their surface.
+    is_surface_held: bool,
+    /// Evaluations until the next stage, at most.
+    most: usize,
+}
+
+impl SettlingStage {
+    fn enter<const D: usize>(&self, energy: &mut Energy<'_, D>) {
+        if self.is_surface_held {
+            energy.hold_surface();
+        }
+        energy.set_levelling(self.levelling);
+        energy.set_repulsion(self.repulsion);
+    }
+}
+
+/// Since when nothing goes on any more.
+#[derive(Debug, Clone, Copy)]
+struct Standstill {
+    /// The largest force's lowest, the energy then, and at which evaluation.
+    lowest: f64,
+    energy_then: f64,
+    lowest_at: usize,
+    /// Where the largest force was half of what it was before.
+    halved: f64,
+    halved_at: usize,
+}
+
+values!(Standstill {
+    lowest: f64,
+    energy_then: f64,
+    lowest_at: usize,
+    halved: f64,
+    halved_at: usize,
+});
+
+impl Standstill {
+    fn from(evaluation: usize) -> Self {
+        Self {
+            lowest: f64::INFINITY,
+            energy_then: f64::INFINITY,
+            lowest_at: evaluation,
+            halved: f64::INFINITY,
+            halved_at: evaluation,
+        }
+    }
+
+    /// Takes a step in: whether nothing goes on any more.
+    fn has_come<const D: usize>(&mut self, energy: &mut Energy<'_, D>) -> bool {
+        let (residual, value) = (energy.residual(), energy.value());
+        let (count, evaluations) = (energy.len() as f64, energy.evaluations());
+        if residual < 0.5 * self.halved {
+            (self.halved, self.halved_at) = (residual, evaluations);
+        } else if evaluations > self.halved_at + LONG_PATIENCE {
+            return true;
+        }
+        if residual < self.lowest {
+            (self.lowest, self.lowest_at, self.energy_then) = (residual, evaluations, value);
+        } else if evaluations > self.lowest_at + PATIENCE {
+            let little = STANDSTILL * self.lowest.max(SMALL_FORCE) * count;
+            if self.energy_then - value < little {
+                return true;
+            }
+            (self.lowest_at, self.energy_then) = (evaluations, value);
+        }
+        false
+    }
+}
+
+/// A minimiser on its way down an energy.
 struct Descent<'s, 'l, const D: usize> {
-    landscape: &'s mut Landscape<'l, D>,
+    energy: &'s mut Energy<'l, D>,
     minimiser: Box<dyn Minimiser<D>>,
+    /// The stage that it is in.
+    stage: usize,
+    /// The evaluation at which the history got its last line.
+    noted: usize,
+    progress: Standstill,
 }
 
 impl<const D: usize> State for Descent<'_, '_, D> {
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.landscape.save(out)?;
-        self.minimiser.save(out)
+        self.energy.save(out)?;
+        self.minimiser.save(out)?;
+        (self.stage, self.noted, self.progress).save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
-        self.landscape.load(from)?;
-        self.minimiser.load(from, self.landscape.len())
+        self.energy.load(from)?;
+        self.minimiser.load(from, self.energy.len())?;
+        (self.stage, self.noted, self.progress) = Value::take(from)?;
+        Ok(())
     }
 }

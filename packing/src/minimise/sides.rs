@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::{Domain, KdTree, point};
 
+use crate::off_bound::off_bound;
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::problem::Body;
-use crate::put_back::off_bound;
 use crate::state::{Damaged, State, values};
 
 /// No free particle comes nearer to a particle surface than this, in ∆s, if it was not nearer before. Those of the first layer

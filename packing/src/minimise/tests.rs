@@ -1,4 +1,4 @@
-//! Properties of the landscape and of the ways down it.
+//! Properties of the energy and of the ways down it.
 
 use std::sync::Arc;
 
@@ -74,10 +74,10 @@ fn one_side<const D: usize>(problem: &Problem<D>, count: usize, state: u64) -> F
     forces
 }
 
-fn with_landscape<const D: usize, R>(
+fn with_energy<const D: usize, R>(
     shake: f64,
     state: u64,
-    work: impl FnOnce(&mut Landscape<'_, D>) -> R,
+    work: impl FnOnce(&mut Energy<'_, D>) -> R,
 ) -> R {
     let (problem, mut particles, surfaces) = shaken::<D>(shake, state);
     let mut forces = Forces::of(
@@ -89,34 +89,34 @@ fn with_landscape<const D: usize, R>(
     let added = state
         .is_multiple_of(3)
         .then(|| one_side(&problem, particles.len(), state));
-    let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
+    let mut energy = Energy::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
     if let Some(added) = added {
-        landscape.add(added);
-        landscape.calm(Calm::of(vec![3, 8, 21], 50.0));
+        energy.add(added);
+        energy.penalise(GradientPenalty::of(vec![3, 8, 21], 50.0));
         let mut places = Vec::new();
-        landscape.places(&mut places);
-        landscape.move_to(&places, 0.0, &places);
+        energy.places(&mut places);
+        energy.move_to(&places, 0.0, &places);
     }
-    work(&mut landscape)
+    work(&mut energy)
 }
 
 fn force_is_downhill<const D: usize>(shake: f64, state: u64) -> Result<(), TestCaseError> {
-    with_landscape::<D, _>(shake, state, |landscape| {
+    with_energy::<D, _>(shake, state, |energy| {
         let mut place = Vec::new();
-        landscape.places(&mut place);
-        let force = landscape.force().to_vec();
-        let mut direction = vec![[0.0; D]; landscape.len()];
+        energy.places(&mut place);
+        let force = energy.force().to_vec();
+        let mut direction = vec![[0.0; D]; energy.len()];
         let mut random = Congruential::new(state ^ 0x5555);
         for d in &mut direction {
             *d = std::array::from_fn(|_| either_way(&mut random));
         }
-        landscape.make_tangential(&mut direction);
+        energy.make_tangential(&mut direction);
         let slope = vectors::dot(&direction, &force);
-        let step = 1e-5 * landscape.spacing();
-        landscape.move_to(&place, step, &direction);
-        let up = landscape.energy();
-        landscape.move_to(&place, -step, &direction);
-        let difference = (up - landscape.energy()) / (2.0 * step);
+        let step = 1e-5 * energy.spacing();
+        energy.move_to(&place, step, &direction);
+        let up = energy.value();
+        energy.move_to(&place, -step, &direction);
+        let difference = (up - energy.value()) / (2.0 * step);
         let scale =
             vectors::dot(&direction, &direction).sqrt() * vectors::dot(&force, &force).sqrt();
         prop_assert!(
@@ -129,19 +129,19 @@ fn force_is_downhill<const D: usize>(shake: f64, state: u64) -> Result<(), TestC
 }
 
 fn never_uphill<const D: usize>(shake: f64, state: u64) -> Result<(), TestCaseError> {
-    with_landscape::<D, _>(shake, state, |landscape| {
-        let start = landscape.energy();
+    with_energy::<D, _>(shake, state, |energy| {
+        let start = energy.value();
         let mut lbfgs = Lbfgs::default();
-        let mut energy = start;
+        let mut lowest = start;
         for _ in 0..30 {
-            if lbfgs.step(landscape) == Step::Stuck {
+            if lbfgs.step(energy) == Step::Stuck {
                 break;
             }
-            prop_assert!(landscape.energy() <= energy * (1.0 + 1e-14));
-            energy = landscape.energy();
+            prop_assert!(energy.value() <= lowest * (1.0 + 1e-14));
+            lowest = energy.value();
         }
-        prop_assert!(energy < start);
-        let on_surface = landscape.particles();
+        prop_assert!(lowest < start);
+        let on_surface = energy.particles();
         for i in 0..on_surface.len() {
             if on_surface.kind[i] == Kind::Boundary {
                 let off = on_surface.position[i].map(|x| (x - 0.5).abs());
@@ -184,15 +184,15 @@ fn the_energy_goes_around_a_periodic_box() {
         &problem,
         Repulsion::new(problem.spacing, Repulsion::STRENGTH),
     );
-    let mut landscape = Landscape::new(&mut particles, &[], forces, problem.spacing, 1.0);
-    let (mut place, force) = (Vec::new(), landscape.force().to_vec());
-    landscape.places(&mut place);
+    let mut energy = Energy::new(&mut particles, &[], forces, problem.spacing, 1.0);
+    let (mut place, force) = (Vec::new(), energy.force().to_vec());
+    energy.places(&mut place);
     let slope = vectors::dot(&force, &force);
     let step = 1e-6 * problem.spacing / slope.sqrt();
-    landscape.move_to(&place, step, &force);
-    let up = landscape.energy();
-    landscape.move_to(&place, -step, &force);
-    let difference = (landscape.energy() - up) / (2.0 * step);
+    energy.move_to(&place, step, &force);
+    let up = energy.value();
+    energy.move_to(&place, -step, &force);
+    let difference = (energy.value() - up) / (2.0 * step);
     assert!(
         (difference / slope - 1.0).abs() < 1e-4,
         "{difference} {slope}"
@@ -213,16 +213,16 @@ fn names_that_are_none_are_refused_with_those_that_are() {
 fn every_minimiser_goes_down_and_holds_what_is_held() {
     for kind in MinimiserKind::ALL {
         assert_eq!(kind.to_string().parse(), Ok(kind));
-        with_landscape::<2, _>(0.2, 7, |landscape| {
-            let (energy, residual) = (landscape.energy(), landscape.residual());
-            let before = landscape.particles().clone();
+        with_energy::<2, _>(0.2, 7, |energy| {
+            let (start, residual) = (energy.value(), energy.residual());
+            let before = energy.particles().clone();
             let mut minimiser = kind.build::<2>();
             for _ in 0..80 {
-                minimiser.step(landscape);
+                minimiser.step(energy);
             }
-            assert!(landscape.energy() < energy, "{}", kind.name());
-            assert!(landscape.residual() < 0.5 * residual, "{}", kind.name());
-            let after = landscape.particles();
+            assert!(energy.value() < start, "{}", kind.name());
+            assert!(energy.residual() < 0.5 * residual, "{}", kind.name());
+            let after = energy.particles();
             for i in 0..after.len() {
                 let moved = point::distance(before.position[i], after.position[i]);
                 assert!(before.kind[i].is_mobile() || moved == 0.0);
@@ -234,7 +234,7 @@ fn every_minimiser_goes_down_and_holds_what_is_held() {
 /// Shaken particles, of which those on the left are levelled, with this κ.
 fn with_the_left_levelled<R>(
     stiffness: f64,
-    work: impl FnOnce(&mut Landscape<'_, 2>, &[bool]) -> R,
+    work: impl FnOnce(&mut Energy<'_, 2>, &[bool]) -> R,
 ) -> R {
     let (problem, mut particles, surfaces) = shaken::<2>(0.1, 8);
     let mut forces = Forces::of(
@@ -244,16 +244,16 @@ fn with_the_left_levelled<R>(
     let is_left: Vec<bool> = particles.position.iter().map(|p| p[0] < 0.4).collect();
     forces.levelled = is_left.clone();
     forces.levelling = Levelling::new(stiffness, 1.0);
-    let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
-    work(&mut landscape, &is_left)
+    let mut energy = Energy::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
+    work(&mut energy, &is_left)
 }
 
 /// Σ (Γ − 1)² of the particles that `is_asked` names.
-fn unevenness(landscape: &Landscape<'_, 2>, is_asked: impl Fn(usize) -> bool) -> f64 {
-    let particles = landscape.particles();
+fn unevenness(energy: &mut Energy<'_, 2>, is_asked: impl Fn(usize) -> bool) -> f64 {
+    let (forces, particles) = energy.evaluated();
     (0..particles.len())
         .filter(|&i| particles.kind[i] != Kind::Frozen && is_asked(i))
-        .map(|i| (landscape.forces().gamma(i) - 1.0).powi(2))
+        .map(|i| (forces.gamma(i) - 1.0).powi(2))
         .sum()
 }
 
@@ -262,23 +262,24 @@ fn unevenness(landscape: &Landscape<'_, 2>, is_asked: impl Fn(usize) -> bool) ->
 fn levelling_acts_on_none_but_those_it_is_told() {
     const STIFFNESS: f64 = 3.0;
     let figures = |stiffness: f64| {
-        with_the_left_levelled(stiffness, |landscape, is_left| {
-            let particles = landscape.particles();
-            let unit = landscape.spacing().powi(2);
+        with_the_left_levelled(stiffness, |energy, is_left| {
+            let unit = energy.spacing().powi(2);
+            let (forces, particles) = energy.evaluated();
             let of_left: f64 = (0..particles.len())
                 .filter(|&i| is_left[i] && particles.kind[i] != Kind::Frozen)
                 .map(|i| {
-                    let off = landscape.forces().gamma(i) - 1.0;
+                    let off = forces.gamma(i) - 1.0;
                     0.5 * STIFFNESS * particles.volume[i] / unit * off * off
                 })
                 .sum();
-            let support = 3.0 * landscape.smoothing_length();
+            let support = 3.0 * energy.smoothing_length();
+            let particles = energy.particles();
             // Who is near a particle that is levelled, or one, and who is not.
-            let is_far: Vec<bool> = (landscape.mobile().iter())
+            let is_far: Vec<bool> = (energy.mobile().iter())
                 .map(|&i| particles.position[i as usize][0] > 0.4 + support)
                 .collect();
-            let force = landscape.force().to_vec();
-            (landscape.energy(), of_left, is_far, force)
+            let force = energy.force().to_vec();
+            (energy.value(), of_left, is_far, force)
         })
     };
     let (without, _, _, plain) = figures(0.0);
@@ -298,12 +299,12 @@ fn levelling_acts_on_none_but_those_it_is_told() {
 #[test]
 fn levelling_evens_out_where_it_is_told() {
     let settled = |stiffness: f64| {
-        with_the_left_levelled(stiffness, |landscape, is_left| {
+        with_the_left_levelled(stiffness, |energy, is_left| {
             let mut lbfgs = Lbfgs::default();
             for _ in 0..60 {
-                lbfgs.step(landscape);
+                lbfgs.step(energy);
             }
-            [true, false].map(|is_told| unevenness(landscape, |i| is_left[i] == is_told))
+            [true, false].map(|is_told| unevenness(energy, |i| is_left[i] == is_told))
         })
     };
     let (without, with) = (settled(0.0), settled(30.0));
@@ -334,17 +335,17 @@ fn no_particle_slips_through_a_surface_that_is_watched() {
         }
         let before = particles.position.clone();
         let forces = Forces::of(&problem, Repulsion::new(problem.spacing, 0.001));
-        let mut landscape = Landscape::new(&mut particles, &surfaces, forces, problem.spacing, 1.0);
+        let mut energy = Energy::new(&mut particles, &surfaces, forces, problem.spacing, 1.0);
         if is_watched {
-            landscape.keep_sides(&problem.bodies);
+            energy.keep_sides(&problem.bodies);
         }
-        landscape.hold_surface();
-        landscape.set_repulsion(Repulsion::new(problem.spacing, 0.001));
+        energy.hold_surface();
+        energy.set_repulsion(Repulsion::new(problem.spacing, 0.001));
         let mut lbfgs = Lbfgs::default();
         for _ in 0..200 {
-            lbfgs.step(&mut landscape);
+            lbfgs.step(&mut energy);
         }
-        let after = landscape.particles();
+        let after = energy.particles();
         (0..after.len())
             .filter(|&i| after.kind[i] == Kind::Free)
             .filter(|&i| surface.inside(before[i]) != surface.inside(after.position[i]))
@@ -364,12 +365,12 @@ fn a_perfect_lattice_stays() {
         Repulsion::new(problem.spacing, Repulsion::STRENGTH),
     );
     forces.levelling = Levelling::new(10.0, problem.perfect_gamma());
-    let mut landscape = Landscape::new(&mut particles, &[], forces, problem.spacing, 1.0);
-    assert!(landscape.residual() < 1e-10);
+    let mut energy = Energy::new(&mut particles, &[], forces, problem.spacing, 1.0);
+    assert!(energy.residual() < 1e-10);
     for kind in MinimiserKind::ALL {
-        kind.build::<2>().step(&mut landscape);
+        kind.build::<2>().step(&mut energy);
     }
-    for (a, &b) in landscape.particles().position.iter().zip(&before) {
+    for (a, &b) in energy.particles().position.iter().zip(&before) {
         assert!(point::distance(*a, b) < 1e-8);
     }
 }
@@ -379,19 +380,19 @@ fn a_perfect_lattice_stays() {
 #[test]
 fn velocities_stay_with_their_particles() {
     for kind in [MinimiserKind::Damped, MinimiserKind::Fire] {
-        with_landscape::<2, _>(0.2, 4, |landscape| {
+        with_energy::<2, _>(0.2, 4, |energy| {
             let mut minimiser = kind.build::<2>();
             for _ in 0..20 {
-                minimiser.step(landscape);
+                minimiser.step(energy);
             }
-            landscape.hold_surface();
+            energy.hold_surface();
             minimiser.reset();
             let (mut before, mut after) = (Vec::new(), Vec::new());
-            landscape.places(&mut before);
-            landscape.move_to(&before, 0.0, &before);
-            let force = landscape.force().to_vec();
-            minimiser.step(landscape);
-            landscape.places(&mut after);
+            energy.places(&mut before);
+            energy.move_to(&before, 0.0, &before);
+            let force = energy.force().to_vec();
+            minimiser.step(energy);
+            energy.places(&mut after);
             for ((&from, &to), &force) in before.iter().zip(&after).zip(&force) {
                 let step = point::sub(to, from);
                 let across = point::norm(point::reject(step, unit_along(force)));

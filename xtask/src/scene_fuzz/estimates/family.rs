@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sphpack::scene::METHODS;
+use sphpack::scene::Method;
 
 /// A scene to be packed.
 #[derive(Debug, Clone)]
@@ -106,7 +106,7 @@ const SMALL: [usize; 2] = [40, 10];
 /// All of them.
 pub(super) fn jobs() -> Vec<Job> {
     let mut jobs = Vec::new();
-    for info in &METHODS {
+    for info in Method::ALL.map(Method::info) {
         for &dimension in info.dimensions {
             let at = |edges: [usize; 2]| Shape::new(dimension, edges[dimension - 2]);
             let is_confined = matches!(info.name, "relaxation" | "complex");
@@ -219,7 +219,7 @@ mod tests {
             let scene = sphpack::Scene::parse(&job.text, "estimates.toml").unwrap();
             assert_eq!(scene.packing.method.name(), job.method);
         }
-        for info in &METHODS {
+        for info in Method::ALL.map(Method::info) {
             for &dimension in info.dimensions {
                 let own = (jobs.iter())
                     .filter(|job| job.method == info.name && job.dimension == dimension);

@@ -1,7 +1,24 @@
 //! The fluid's side of bodies' surfaces, as the published methods bound it.
 
+use crate::particles::{Kind, Particles};
+use crate::problem::Problem;
+use crate::seeding::Seeds;
 use sphpack_geometry::{Closest, Feature};
 use sphpack_neighbors::point;
+
+impl<const D: usize> Seeds<D> {
+    /// Adds to `solids` what is around them: the sites outside every body, and the frozen ones.
+    pub(crate) fn surround(&self, problem: &Problem<D>, solids: &mut Particles<D>) {
+        let lattice = &self.particles;
+        let is_fluid = |p: [f64; D]| !problem.bodies.iter().any(|body| body.surface.inside(p));
+        for i in 0..lattice.len() {
+            let (p, kind) = (lattice.position[i], lattice.kind[i]);
+            if kind == Kind::Frozen || is_fluid(p) {
+                solids.push(p, kind, lattice.volume[i], None);
+            }
+        }
+    }
+}
 
 /// The set `off` (scene units) outside of a body, seen from `p`, of which `hit` is the nearest place on the body's surface. The
 /// normal points out of the fluid, and the distance is negative within the fluid.

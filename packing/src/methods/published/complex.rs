@@ -2,15 +2,18 @@
 
 use rayon::prelude::*;
 
-use crate::course::Course;
+use super::relaxation::{Interface, Relaxation, Relaxed};
+use crate::estimate::Work;
 use crate::forces::Forces;
 use crate::lattice::Lattice;
-use crate::minimise::{Calm, Landscape, Settling};
-use crate::observer::{Observer, Phase};
+use crate::methods::info::{CHOOSING, MethodInfo};
+use crate::minimise::{Energy, GradientPenalty, Settling};
+use crate::observer::Stage;
 use crate::packed::{Packed, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{Body, PackingError, Problem};
-use crate::relaxation::{Interface, Relaxation, Relaxed};
+use crate::run_log::RunLog;
+use sphpack_kernels::KernelKind;
 use sphpack_pairs::Repulsion;
 
 /// The paper's complex relaxation (004 §2.3), in the plane and in space, and a levelling after it.
@@ -41,7 +44,7 @@ pub struct Complex {
     /// κ; 0 leaves particles as the paper does.
     pub levelling: f64,
     /// μ, how much the first layer's kernel gradient sum counts while density is levelled.
-    pub calm: f64,
+    pub gradient_penalty: f64,
 }
 
 /// By how much Γ may be off without being levelled: κ is finite, so the last stay outside, by a half of this at most on
@@ -62,12 +65,38 @@ impl Default for Complex {
         Self {
             relaxation: Relaxation::default(),
             levelling: 1000.0,
-            calm: 100.0,
+            gradient_penalty: 100.0,
         }
     }
 }
 
 impl Complex {
+    /// What it costs, moves and promises.
+    pub const INFO: MethodInfo = MethodInfo {
+        name: "complex",
+        summary: "bodies relaxed alone, the fluid against their particles (paper 004)",
+        kernel: KernelKind::WendlandC2,
+        h_over_spacing: 1.3,
+        // As many as relaxation, then as many that level, of two smoothing lengths with two sums each: three times as
+        // long.
+        work: Work {
+            evaluations: 1500.0,
+            times_plain: 4.0,
+            confined_sides: 1.0,
+            placing: CHOOSING,
+            ..Work::PLAIN
+        },
+        ..MethodInfo::USUAL
+    };
+
+    /// [`Method::check`](crate::Method::check), for any dimension.
+    pub(crate) fn check_in<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+    ) -> Result<(), PackingError> {
+        Self::INFO.check(problem)
+    }
+
     /// Packs the problem.
     ///
     /// # Errors
@@ -75,25 +104,25 @@ impl Complex {
     pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
-        observer: &mut dyn Observer,
+        log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
         let (tolerance, most) = (
             self.relaxation.residual_tolerance,
             self.relaxation.max_iterations,
         );
-        let mut course = Course::new(observer, tolerance, most);
-        let mut relaxed = (self.relaxation).relax(problem, &mut course, Interface::Particles)?;
+        log.aim(tolerance, most);
+        let mut relaxed = (self.relaxation).relax(problem, log, Interface::Particles)?;
         if self.levelling > 0.0 && most > 0 {
-            relaxed = self.level(problem, relaxed, &mut course)?;
+            relaxed = self.level(problem, relaxed, log)?;
         }
-        Ok(relaxed.end(problem, course))
+        Ok(relaxed.end(problem, log))
     }
 
     fn level<const D: usize>(
         &self,
         problem: &Problem<D>,
         mut relaxed: Relaxed<D>,
-        course: &mut Course<'_>,
+        log: &mut RunLog<'_>,
     ) -> Result<Relaxed<D>, PackingError> {
         let settling = Settling {
             residual_tolerance: Some(TOLERANCE),
@@ -103,32 +132,33 @@ impl Complex {
             leeway: LEEWAY,
             ..Settling::default()
         };
-        course.progress.tolerance = TOLERANCE;
-        course.progress.max_evaluations = course.progress.evaluation + settling.max_evaluations;
-        course.enter(Phase::Settling);
+        log.progress.tolerance = TOLERANCE;
+        log.progress.max_evaluations = log.progress.evaluation + settling.max_evaluations;
+        log.enter(Stage::Settling);
         let is_solid: Vec<bool> = relaxed.particles.body.iter().map(Option::is_some).collect();
         let first_layer = first_layer(problem, &relaxed.particles);
         let fluid_gamma = problem.perfect_gamma();
         let mut fluid = relaxed.whole;
         fluid.repulsion = settling.early_repulsion(problem.spacing);
         fluid.levelled = is_solid.iter().map(|is_solid| !is_solid).collect();
-        let mut landscape = Landscape::new(
+        let mut energy = Energy::new(
             &mut relaxed.particles,
             &relaxed.surfaces,
             fluid,
             problem.spacing,
             problem.support(),
         );
-        landscape.add(self.solids(problem, is_solid, &settling));
-        landscape.calm(Calm::of(first_layer, self.calm));
-        landscape.keep_sides(&problem.bodies);
-        let reason = settling.run(&mut landscape, course, fluid_gamma, true)?;
-        landscape
+        energy.add(self.solids(problem, is_solid, &settling));
+        energy.penalise(GradientPenalty::of(first_layer, self.gradient_penalty));
+        energy.keep_sides(&problem.bodies);
+        let [_, last] = settling.schedule(problem.spacing, fluid_gamma);
+        let reason = settling.run(&mut energy, log, &[last])?;
+        energy
             .added()
             .into_iter()
-            .for_each(|solids| course.count(solids));
-        course.seconds.forces += landscape.calm_seconds();
-        relaxed.whole = landscape.into_forces();
+            .for_each(|solids| log.count(solids));
+        log.seconds.forces += energy.penalty_seconds();
+        relaxed.whole = energy.into_forces();
         if relaxed.stop_reason == StopReason::Converged {
             relaxed.stop_reason = reason;
         }

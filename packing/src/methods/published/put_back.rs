@@ -1,8 +1,5 @@
 //! Particles that came too near to a bound, or passed it, and go back.
 
-use sphpack_geometry::Closest;
-use sphpack_neighbors::point;
-
 /// Where `step`, from `place` on, has nothing more to change; in a corner, where it leads from one bound to the other, where it is
 /// after so many `rounds`.
 pub(crate) fn put_back<const D: usize>(
@@ -19,25 +16,14 @@ pub(crate) fn put_back<const D: usize>(
     place
 }
 
-/// `p` moved straight off a bound until it is `floor` (scene units) within; none where it is that far already. `bound` is the
-/// nearest place of the bound, its normal the way out, its distance negative within.
-#[inline]
-pub(crate) fn off_bound<const D: usize>(
-    p: [f64; D],
-    bound: &Closest<D>,
-    floor: f64,
-) -> Option<[f64; D]> {
-    let lacking = bound.distance + floor;
-    let inward = point::scale(bound.normal, -1.0);
-    (lacking > 0.0).then(|| point::add_scaled(p, lacking, inward))
-}
-
 #[cfg(test)]
 mod tests {
-    use sphpack_geometry::{Ball, Cuboid, Surface};
+    use sphpack_geometry::{Ball, Closest, Cuboid, Surface};
+    use sphpack_neighbors::point;
 
-    use super::*;
-    use crate::fluid_side::{around_body, tightest, within_body};
+    use super::put_back;
+    use crate::methods::published::fluid_side::{around_body, tightest, within_body};
+    use crate::off_bound::off_bound;
 
     /// A box that holds the fluid, with a disc on its floor: the nook between them is acute.
     fn nook(p: [f64; 2]) -> Closest<2> {

@@ -6,15 +6,10 @@ use rayon::prelude::*;
 use sphpack_neighbors::{Domain, point};
 
 use crate::forces::largest;
+use crate::minimise::time_step;
 use crate::on_surface::OnSurface;
 use crate::particles::{Kind, Particles};
 use crate::state::{Damaged, State, load_as_many};
-
-/// The time step of 001 eq. 25 (Negi and Ramachandran) for a background pressure `pressure`: no farther than a tenth of `h` by what
-/// the pressure does from rest, nor by damping `zeta` at the speed of the `fastest`.
-pub(crate) fn time_step(h: f64, zeta: f64, pressure: f64, fastest: f64) -> f64 {
-    (0.1 * h / pressure.sqrt()).min((0.1 * h / (zeta * fastest)).sqrt())
-}
 
 /// Velocities, and how they change.
 #[derive(Debug, Clone)]

@@ -1,5 +1,6 @@
-//! The course of a packing, the same for every method: clock, progress, history, and the result at its end.
+//! The log of a packing, the same for every method: clock, progress, history, and the result at its end.
 
+use std::fmt;
 use std::io::{self, Write};
 use std::time::Instant;
 
@@ -7,18 +8,27 @@ use sphpack_neighbors::point;
 
 use crate::forces::{Forces, largest};
 use crate::lattice::Filling;
-use crate::observer::{Keeper, Observer, Phase, Progress, Sample};
+use crate::observer::{HistoryPoint, Keeper, Observer, Progress, Stage};
 use crate::packed::{Packed, ParticleSurface, Seconds, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
 use crate::state::{Damaged, State, Value, values};
-use sphpack_pairs::Repulsion;
 
-/// What a method keeps beside its particles.
-pub(crate) struct Course<'a> {
+/// What a method keeps beside its particles: clock, progress and history, whom to tell, and where an earlier run was. Good
+/// for one packing.
+///
+/// ```
+/// use sphpack_packing::{RunLog, Silent};
+///
+/// let mut nobody = Silent;
+/// let log = RunLog::new(&mut nobody);
+/// // Balanced::default().pack(&problem, &mut log)
+/// # drop(log);
+/// ```
+pub struct RunLog<'a> {
     begin: Instant,
     observer: &'a mut dyn Observer,
-    history: Vec<Sample>,
+    history: Vec<HistoryPoint>,
     /// Where the time went so far; a method fills in what only it knows.
     pub(crate) seconds: Seconds,
     /// What the observer is told next.
@@ -49,13 +59,18 @@ pub(crate) enum Begin {
     Beyond,
 }
 
-impl<'a> Course<'a> {
-    /// Starts the clock of a method that stops at `tolerance` or after `max_evaluations`.
-    pub(crate) fn new(
-        observer: &'a mut dyn Observer,
-        tolerance: f64,
-        max_evaluations: usize,
-    ) -> Self {
+impl fmt::Debug for RunLog<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RunLog")
+            .field("progress", &self.progress)
+            .field("seconds", &self.seconds)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a> RunLog<'a> {
+    /// Starts the clock.
+    pub fn new(observer: &'a mut dyn Observer) -> Self {
         let earlier = observer.keeper().and_then(Keeper::earlier);
         Self {
             begin: Instant::now(),
@@ -63,11 +78,11 @@ impl<'a> Course<'a> {
             history: Vec::new(),
             seconds: Seconds::default(),
             progress: Progress {
-                phase: Phase::Geometry,
+                stage: Stage::Geometry,
                 evaluation: 0,
-                max_evaluations,
+                max_evaluations: 0,
                 criterion: f64::INFINITY,
-                tolerance,
+                tolerance: 0.0,
                 on_surface: 0,
                 target: 0,
                 seconds: 0.0,
@@ -82,12 +97,18 @@ impl<'a> Course<'a> {
         }
     }
 
+    /// The method will stop at `tolerance` or after `max_evaluations`.
+    pub(crate) fn aim(&mut self, tolerance: f64, max_evaluations: usize) {
+        self.progress.tolerance = tolerance;
+        self.progress.max_evaluations = max_evaluations;
+    }
+
     fn seconds_so_far(&self) -> f64 {
         self.seconds_before + self.begin.elapsed().as_secs_f64()
     }
 
     /// At the beginning of a loop: where an earlier run has been in it or beyond, `parts` become as they were there. Of
-    /// what this course keeps the rest comes back with the innermost loop.
+    /// what this log keeps the rest comes back with the innermost loop.
     pub(crate) fn go_on(&mut self, parts: &mut [&mut dyn State]) -> Result<Begin, PackingError> {
         if self.earlier.is_empty() {
             return Ok(Begin::Anew);
@@ -157,9 +178,9 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// Tells the observer that a phase begins.
-    pub(crate) fn enter(&mut self, phase: Phase) {
-        self.progress.phase = phase;
+    /// Tells the observer that a stage begins.
+    pub(crate) fn enter(&mut self, stage: Stage) {
+        self.progress.stage = stage;
         self.tell();
     }
 
@@ -174,7 +195,7 @@ impl<'a> Course<'a> {
         self.progress.seconds = self.seconds_so_far();
         let kind = &particles.kind;
         let of = |wanted: bool, value: f64| if wanted { value } else { 0.0 };
-        self.history.push(Sample {
+        self.history.push(HistoryPoint {
             evaluation: self.progress.evaluation,
             energy: forces.energy() / forces.list().targets().max(1) as f64,
             residual: forces.smoothing_length()
@@ -196,32 +217,9 @@ impl<'a> Course<'a> {
         self.earlier_evaluations += forces.evaluations();
     }
 
-    /// The result of a method whose particles stay where they were put, measured once.
-    pub(crate) fn end_unmoved<const D: usize>(
-        mut self,
-        problem: &Problem<D>,
-        particles: Particles<D>,
-        frozen_lattice: Filling<D>,
-        surfaces: Vec<ParticleSurface<D>>,
-    ) -> Packed<D> {
-        let mut forces = Forces::of(problem, Repulsion::none());
-        forces.evaluate(&particles);
-        self.progress.evaluation = 1;
-        self.note(&forces, &particles);
-        self.end(
-            problem,
-            particles,
-            frozen_lattice,
-            surfaces,
-            &forces,
-            StopReason::Converged,
-        )
-        .with_known_sides()
-    }
-
     /// The result: the clock stops.
     pub(crate) fn end<const D: usize>(
-        mut self,
+        &mut self,
         problem: &Problem<D>,
         mut particles: Particles<D>,
         frozen_lattice: Filling<D>,
@@ -273,13 +271,13 @@ impl<'a> Course<'a> {
             },
             iterations: self.progress.evaluation,
             force_evaluations: self.earlier_evaluations,
-            history: self.history,
+            history: std::mem::take(&mut self.history),
             seconds: self.seconds,
         }
     }
 }
 
-values!(Sample {
+values!(HistoryPoint {
     evaluation: usize,
     energy: f64,
     residual: f64,
@@ -298,7 +296,7 @@ values!(Seconds {
 });
 
 values!(Progress {
-    phase: Phase,
+    stage: Stage,
     evaluation: usize,
     max_evaluations: usize,
     criterion: f64,
@@ -308,7 +306,7 @@ values!(Progress {
     seconds: f64,
 });
 
-impl Value for Phase {
+impl Value for Stage {
     const LEAST: usize = 1;
 
     fn put(&self, out: &mut dyn Write) -> io::Result<()> {

@@ -3,19 +3,21 @@
 use std::time::Instant;
 
 use sphpack_geometry::{Closest, Surface};
+use sphpack_kernels::KernelKind;
 use sphpack_neighbors::point;
 
-use crate::confined::{Bound, Confined, update_ghosts};
+use super::confined::{Bound, Confined, update_ghosts};
+use super::fluid_side::{around_body, tightest};
 use crate::confinement::Confinement;
-use crate::course::Course;
-use crate::fluid_side::{around_body, tightest};
+use crate::estimate::Work;
 use crate::forces::Forces;
 use crate::lattice::Filling;
-use crate::observer::{Observer, Phase};
+use crate::methods::info::{CHOOSING, MethodInfo};
+use crate::observer::Stage;
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::seeding::particle_surfaces;
+use crate::run_log::RunLog;
 use sphpack_pairs::Repulsion;
 
 mod start;
@@ -70,6 +72,30 @@ pub(crate) enum Interface {
 const LOOK_EVERY: usize = 50;
 
 impl Relaxation {
+    /// What it costs, moves and promises.
+    pub const INFO: MethodInfo = MethodInfo {
+        name: "relaxation",
+        summary: "bodies and fluid relaxed apart, each within its surface (paper 004)",
+        kernel: KernelKind::WendlandC2,
+        h_over_spacing: 1.3,
+        // 560 … 2,440 iterations. Both sides of every surface are confined.
+        work: Work {
+            evaluations: 1500.0,
+            confined_sides: 2.0,
+            placing: CHOOSING,
+            ..Work::PLAIN
+        },
+        ..MethodInfo::USUAL
+    };
+
+    /// [`Method::check`](crate::Method::check), for any dimension.
+    pub(crate) fn check_in<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+    ) -> Result<(), PackingError> {
+        Self::INFO.check(problem)
+    }
+
     /// Packs the problem.
     ///
     /// # Errors
@@ -77,26 +103,21 @@ impl Relaxation {
     pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
-        observer: &mut dyn Observer,
+        log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        let mut course = Course::new(observer, self.residual_tolerance, self.max_iterations);
-        let relaxed = self.relax(problem, &mut course, Interface::Confinement)?;
-        Ok(relaxed.end(problem, course))
+        log.aim(self.residual_tolerance, self.max_iterations);
+        let relaxed = self.relax(problem, log, Interface::Confinement)?;
+        Ok(relaxed.end(problem, log))
     }
 
     pub(crate) fn relax<const D: usize>(
         &self,
         problem: &Problem<D>,
-        course: &mut Course<'_>,
+        log: &mut RunLog<'_>,
         interface: Interface,
     ) -> Result<Relaxed<D>, PackingError> {
-        course.enter(Phase::Geometry);
-        let geometry = Instant::now();
-        problem.check()?;
-        let surfaces = particle_surfaces(problem)?;
-        course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
-        course.seconds.geometry = geometry.elapsed().as_secs_f64();
-        course.enter(Phase::Seeding);
+        let surfaces = log.surfaces(problem)?;
+        log.enter(Stage::Seeding);
         let seeding = Instant::now();
         let Start {
             solids,
@@ -106,13 +127,13 @@ impl Relaxation {
         let own = fluid.len();
         let mut solids = self.confined_solids(problem, &surfaces, solids);
         let mut fluid = confined_fluid(problem, fluid, &solids, interface);
-        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+        log.seconds.seeding = seeding.elapsed().as_secs_f64();
 
-        course.enter(Phase::Settling);
+        log.enter(Stage::Settling);
         let mut whole = Forces::of(problem, Repulsion::none());
         let mut stop_reason = StopReason::IterationLimit;
         let (mut iteration, mut is_settled) = (1, false);
-        course.go_on(&mut [
+        log.go_on(&mut [
             &mut iteration,
             &mut is_settled,
             &mut solids,
@@ -120,7 +141,7 @@ impl Relaxation {
             &mut whole,
         ])?;
         while iteration <= self.max_iterations && !is_settled {
-            if course.is_to_stop(&[&iteration, &is_settled, &solids, &fluid, &whole]) {
+            if log.is_to_stop(&[&iteration, &is_settled, &solids, &fluid, &whole]) {
                 break;
             }
             let mut residual: f64 = 0.0;
@@ -132,14 +153,14 @@ impl Relaxation {
             }
             residual = residual.max(fluid.step());
             is_settled = residual < self.residual_tolerance;
-            course.progress.evaluation = iteration;
-            course.progress.criterion = residual;
+            log.progress.evaluation = iteration;
+            log.progress.criterion = residual;
             if iteration % LOOK_EVERY == 0 || is_settled {
                 let (particles, on_surface) = together(&solids, &fluid, own);
-                course.progress.on_surface = on_surface.len();
+                log.progress.on_surface = on_surface.len();
                 whole.evaluate(&particles);
-                course.tell();
-                course.note(&whole, &particles);
+                log.tell();
+                log.note(&whole, &particles);
             }
             iteration += 1;
         }
@@ -147,12 +168,12 @@ impl Relaxation {
             stop_reason = StopReason::Converged;
         }
         if interface == Interface::Particles {
-            course.set_aside(0, &[&iteration, &is_settled, &solids, &fluid, &whole]);
+            log.set_aside(0, &[&iteration, &is_settled, &solids, &fluid, &whole]);
         }
         for one in solids.iter().chain([&fluid]) {
-            course.count(&one.forces);
-            course.seconds.forces += one.seconds[0];
-            course.seconds.projection += one.seconds[1];
+            log.count(&one.forces);
+            log.seconds.forces += one.seconds[0];
+            log.seconds.projection += one.seconds[1];
         }
         let (mut particles, on_surface) = together(&solids, &fluid, own);
         drop((solids, fluid));
@@ -202,18 +223,17 @@ pub(crate) struct Relaxed<const D: usize> {
 }
 
 impl<const D: usize> Relaxed<D> {
-    pub(crate) fn end(self, problem: &Problem<D>, course: Course<'_>) -> Packed<D> {
+    pub(crate) fn end(self, problem: &Problem<D>, log: &mut RunLog<'_>) -> Packed<D> {
         let (forces, reason) = (&self.whole, self.stop_reason);
-        course
-            .end(
-                problem,
-                self.particles,
-                self.frozen_lattice,
-                self.surfaces,
-                forces,
-                reason,
-            )
-            .with_known_sides()
+        log.end(
+            problem,
+            self.particles,
+            self.frozen_lattice,
+            self.surfaces,
+            forces,
+            reason,
+        )
+        .with_known_sides()
     }
 }
 

@@ -8,19 +8,19 @@ use sphpack_neighbors::{Domain, point};
 
 use crate::minimise::Finish;
 use crate::{
-    Balanced, Body, Kind, MinimiserKind, Packed, Problem, Settling, Silent, StopReason,
+    Balanced, Body, Kind, MinimiserKind, Packed, Problem, RunLog, Settling, Silent, StopReason,
     correct_masses,
 };
 
 fn pack<const D: usize>(problem: &Problem<D>) -> Packed<D> {
     Balanced::default()
-        .pack_in(problem, &mut Silent)
+        .pack_in(problem, &mut RunLog::new(&mut Silent))
         .expect("a sound problem")
 }
 
 fn linf<const D: usize>(problem: &Problem<D>, packed: &Packed<D>) -> f64 {
     let fields = packed.fields(problem.kernel, problem.h_over_spacing);
-    packed.quality(&fields).density.linf
+    packed.quality_by(&fields).density.linf
 }
 
 /// A polygon with corners both ways, its place and size free.
@@ -129,7 +129,7 @@ fn a_mirrored_or_turned_problem_packs_as_well() {
             problem.seed = seed;
             let packed = pack(&problem);
             let density = packed
-                .quality(&packed.fields(problem.kernel, problem.h_over_spacing))
+                .quality_by(&packed.fields(problem.kernel, problem.h_over_spacing))
                 .density;
             linf += density.linf / SEEDS as f64;
             free += packed.particles.count(Kind::Free);
@@ -218,7 +218,7 @@ fn surfaces_near_each_other_keep_particles_apart() {
                 .placed_body(body("left", [-0.8, -0.4], [-gap * spacing, 0.4]))
                 .placed_body(body("right", [0.0, -0.4], [0.8, 0.4]));
             let packed = pack(&problem);
-            let quality = packed.quality(&packed.fields(problem.kernel, problem.h_over_spacing));
+            let quality = packed.quality_by(&packed.fields(problem.kernel, problem.h_over_spacing));
             let what = format!("gap {gap}, inset {inset_over_spacing}: {quality:?}");
             assert!(quality.closest_pair_over_spacing > 0.6, "{what}");
             assert!(quality.density.linf < 0.05, "{what}");
@@ -258,11 +258,11 @@ fn a_consistent_finish_leaves_no_force_and_every_minimiser_arrives() {
             settling,
             ..Balanced::default()
         }
-        .pack_in(&problem, &mut Silent)
+        .pack_in(&problem, &mut RunLog::new(&mut Silent))
         .expect("a sound problem");
         assert_eq!(packed.stop_reason, StopReason::Converged, "{minimiser:?}");
         let fields = packed.fields(problem.kernel, problem.h_over_spacing);
-        let quality = packed.quality(&fields);
+        let quality = packed.quality_by(&fields);
         assert!(quality.density.linf < 5e-3, "{minimiser:?}");
         if finish == Finish::Consistent {
             assert!(quality.residual.max < 1.1e-5);

@@ -6,7 +6,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sphpack_neighbors::point;
 
-use super::Calm;
+use super::GradientPenalty;
 use super::sides::Sides;
 use super::vectors;
 use super::walls::Walls;
@@ -20,18 +20,20 @@ use sphpack_pairs::Repulsion;
 
 /// The energy E = ½ Σ_ij V_i V_j W_ij/∆s^D + Σ_pairs φ_R, and that of a [`Levelling`], over the places of the mobile
 /// particles, and its forces −∇E; boundary particles stay on their surfaces, fixed and frozen ones where they are.
-/// The energies of a second evaluator and of a [`Calm`] may be added.
+/// The energies of a second evaluator and of a [`GradientPenalty`] may be added.
+///
+/// It is evaluated when it is asked, once for every place: what changes it, or moves particles, only marks it.
 ///
 /// E is per ∆s^D and p_b; the force on a particle of that volume is its acceleration for p_b = 1, per scene unit.
 /// Forces are −∇E along the surfaces for any volumes, so long as these do not change.
 #[derive(Debug)]
-pub struct Landscape<'a, const D: usize> {
+pub struct Energy<'a, const D: usize> {
     particles: &'a mut Particles<D>,
     surfaces: &'a [ParticleSurface<D>],
     bodies: &'a [Body<D>],
     forces: Forces<D>,
     added: Option<Forces<D>>,
-    calm: Option<Calm<D>>,
+    gradient_penalty: Option<GradientPenalty<D>>,
     on_surface: OnSurface<D>,
     sides: Sides<D>,
     walls: Walls<D>,
@@ -40,15 +42,18 @@ pub struct Landscape<'a, const D: usize> {
     reach: f64,
     mobile: Vec<u32>,
     is_surface_held: bool,
-    energy: f64,
+    /// Whether particles have moved, or the energy has become another one, since it was evaluated.
+    is_stale: bool,
+    /// Whether it is another energy, or one of other particles, than when [`Energy::take_changed`] was last asked.
+    is_changed: bool,
+    value: f64,
     force: Vec<[f64; D]>,
     projection_seconds: f64,
-    calm_seconds: f64,
+    penalty_seconds: f64,
 }
 
-impl<'a, const D: usize> Landscape<'a, D> {
-    /// The landscape around the present places, which is evaluated there; boundary particles are put onto their
-    /// surfaces first. `spacing` is ∆s; surfaces are looked for within `reach` (scene units).
+impl<'a, const D: usize> Energy<'a, D> {
+    /// The energy around the present places; boundary particles are put onto their surfaces first. `spacing` is ∆s; surfaces are looked for within `reach` (scene units).
     pub fn new(
         particles: &'a mut Particles<D>,
         surfaces: &'a [ParticleSurface<D>],
@@ -63,7 +68,7 @@ impl<'a, const D: usize> Landscape<'a, D> {
         let mut on_surface = OnSurface::default();
         on_surface.refresh(particles);
         let domain = *forces.list().domain();
-        let mut landscape = Self {
+        let mut energy = Self {
             smoothing_length: forces.smoothing_length(),
             force: vec![[0.0; D]; mobile.len()],
             particles,
@@ -71,7 +76,7 @@ impl<'a, const D: usize> Landscape<'a, D> {
             bodies: &[],
             forces,
             added: None,
-            calm: None,
+            gradient_penalty: None,
             on_surface,
             sides: Sides::default(),
             walls: Walls::new(domain),
@@ -79,13 +84,14 @@ impl<'a, const D: usize> Landscape<'a, D> {
             reach,
             mobile,
             is_surface_held: false,
-            energy: 0.0,
+            is_stale: true,
+            is_changed: false,
+            value: 0.0,
             projection_seconds: 0.0,
-            calm_seconds: 0.0,
+            penalty_seconds: 0.0,
         };
-        landscape.project();
-        landscape.evaluate();
-        landscape
+        energy.project();
+        energy
     }
 
     /// ∆s, scene units.
@@ -118,19 +124,28 @@ impl<'a, const D: usize> Landscape<'a, D> {
         self.particles
     }
 
-    /// Density and force at the last evaluation.
-    pub fn forces(&self) -> &Forces<D> {
+    /// Density and force where the particles are.
+    pub fn forces(&mut self) -> &Forces<D> {
+        self.evaluate();
         &self.forces
     }
 
-    /// Adds the energy of an evaluator by another kernel or smoothing length. Needs to be followed by an evaluation.
-    pub fn add(&mut self, forces: Forces<D>) {
-        self.added = Some(forces);
+    /// What was found where the particles are, and these.
+    pub fn evaluated(&mut self) -> (&Forces<D>, &Particles<D>) {
+        self.evaluate();
+        (&self.forces, self.particles)
     }
 
-    /// Adds the energy of a penalty by its own evaluator. Needs to be followed by an evaluation.
-    pub fn calm(&mut self, calm: Calm<D>) {
-        self.calm = Some(calm);
+    /// Adds the energy of an evaluator by another kernel or smoothing length.
+    pub fn add(&mut self, forces: Forces<D>) {
+        self.added = Some(forces);
+        self.mark_changed();
+    }
+
+    /// Adds the energy of a penalty.
+    pub fn penalise(&mut self, penalty: GradientPenalty<D>) {
+        self.gradient_penalty = Some(penalty);
+        self.mark_changed();
     }
 
     /// The evaluator that was added.
@@ -139,7 +154,8 @@ impl<'a, const D: usize> Landscape<'a, D> {
     }
 
     /// Gives the evaluator back.
-    pub fn into_forces(self) -> Forces<D> {
+    pub fn into_forces(mut self) -> Forces<D> {
+        self.evaluate();
         self.forces
     }
 
@@ -148,19 +164,28 @@ impl<'a, const D: usize> Landscape<'a, D> {
         self.forces.evaluations()
     }
 
-    /// E at the last evaluation.
-    pub fn energy(&self) -> f64 {
-        self.energy
+    /// E where the particles are.
+    pub fn value(&mut self) -> f64 {
+        self.evaluate();
+        self.value
     }
 
-    /// −∇E of every mobile particle at the last evaluation, along the surface for boundary particles.
-    pub fn force(&self) -> &[[f64; D]] {
+    /// −∇E of every mobile particle, along the surface for boundary particles.
+    pub fn force(&mut self) -> &[[f64; D]] {
+        self.evaluate();
         &self.force
     }
 
     /// The largest force, times h: dimensionless, what minimisers bring to zero.
-    pub fn residual(&self) -> f64 {
+    pub fn residual(&mut self) -> f64 {
+        self.evaluate();
         self.smoothing_length * vectors::longest(&self.force)
+    }
+
+    /// Whether this has become another energy, or one of other particles, since it was asked before: what earlier steps
+    /// taught a minimiser is of no use then.
+    pub fn take_changed(&mut self) -> bool {
+        std::mem::take(&mut self.is_changed)
     }
 
     /// Seconds spent on keeping boundary particles on their surfaces.
@@ -168,9 +193,9 @@ impl<'a, const D: usize> Landscape<'a, D> {
         self.projection_seconds
     }
 
-    /// Seconds spent on the [`Calm`].
-    pub fn calm_seconds(&self) -> f64 {
-        self.calm_seconds
+    /// Seconds spent on the [`GradientPenalty`].
+    pub fn penalty_seconds(&self) -> f64 {
+        self.penalty_seconds
     }
 
     /// From now on free particles stay on the side of every surface where they are: within, 0.4 ∆s away from the particle
@@ -199,25 +224,30 @@ impl<'a, const D: usize> Landscape<'a, D> {
         );
     }
 
-    /// Puts the mobile particles at `from + step · direction`, boundary ones onto their surface from there, and
-    /// evaluates.
+    /// Puts the mobile particles at `from + step · direction`, boundary ones onto their surface from there.
     pub fn move_to(&mut self, from: &[[f64; D]], step: f64, direction: &[[f64; D]]) {
         for ((&i, &x), &d) in self.mobile.iter().zip(from).zip(direction) {
             self.particles.position[i as usize] = point::add_scaled(x, step, d);
         }
         self.project();
-        self.evaluate();
+        self.is_stale = true;
     }
 
-    /// Changes the repulsion, which changes the energy: evaluates anew.
+    /// Changes the repulsion.
     pub fn set_repulsion(&mut self, repulsion: Repulsion) {
         self.forces.repulsion = repulsion;
-        self.evaluate();
+        self.mark_changed();
     }
 
-    /// Changes the levelling, which changes the energy. Needs to be followed by an evaluation.
+    /// Changes the levelling.
     pub fn set_levelling(&mut self, levelling: Option<Levelling>) {
         self.forces.levelling = levelling;
+        self.mark_changed();
+    }
+
+    fn mark_changed(&mut self) {
+        self.is_stale = true;
+        self.is_changed = true;
     }
 
     /// `v` of every mobile particle without its part along the normal of the surface that it sits on.
@@ -228,12 +258,13 @@ impl<'a, const D: usize> Landscape<'a, D> {
             .for_each(|(v, &i)| *v = self.on_surface.tangential(i as usize, *v));
     }
 
-    /// Holds boundary particles where they are from now on. Needs to be followed by an evaluation.
+    /// Holds boundary particles where they are from now on.
     pub fn hold_surface(&mut self) {
         let kind = &self.particles.kind;
         self.mobile.retain(|&i| kind[i as usize] == Kind::Free);
         self.force.resize(self.mobile.len(), [0.0; D]);
         self.is_surface_held = true;
+        self.mark_changed();
     }
 
     fn project(&mut self) {
@@ -248,6 +279,10 @@ impl<'a, const D: usize> Landscape<'a, D> {
     }
 
     fn evaluate(&mut self) {
+        if !self.is_stale {
+            return;
+        }
+        self.is_stale = false;
         self.forces.evaluate(self.particles);
         if let Some(added) = &mut self.added {
             added.evaluate(self.particles);
@@ -259,17 +294,17 @@ impl<'a, const D: usize> Landscape<'a, D> {
     fn add_up(&mut self) {
         let unit = self.spacing.powi(D as i32);
         let volume = &self.particles.volume;
-        self.energy = self.forces.weighted_energy(|i| volume[i] / unit);
+        self.value = self.forces.weighted_energy(|i| volume[i] / unit);
         if let Some(added) = &self.added {
-            self.energy += added.weighted_energy(|i| volume[i] / unit);
+            self.value += added.weighted_energy(|i| volume[i] / unit);
         }
-        if let Some(calm) = &mut self.calm {
+        if let Some(penalty) = &mut self.gradient_penalty {
             let start = Instant::now();
-            self.energy += calm.evaluate(&self.forces, self.particles, unit);
-            self.calm_seconds += start.elapsed().as_secs_f64();
+            self.value += penalty.evaluate(&self.forces, self.particles, unit);
+            self.penalty_seconds += start.elapsed().as_secs_f64();
         }
         let (forces, added, on_surface) = (&self.forces, &self.added, &self.on_surface);
-        let calming = self.calm.as_ref().map(Calm::force);
+        let penalty = self.gradient_penalty.as_ref().map(GradientPenalty::force);
         self.force
             .par_iter_mut()
             .zip(&self.mobile)
@@ -282,8 +317,8 @@ impl<'a, const D: usize> Landscape<'a, D> {
                     if let Some(added) = added {
                         force = point::add(force, added.weighted_acceleration(i, weight));
                     }
-                    if let Some(calming) = calming {
-                        force = point::add(force, calming[i]);
+                    if let Some(penalty) = penalty {
+                        force = point::add(force, penalty[i]);
                     }
                     on_surface.tangential(i, force)
                 };
@@ -307,7 +342,7 @@ impl<'a, const D: usize> Landscape<'a, D> {
 }
 
 /// Of the same problem, with the same evaluators and penalties; afterwards it is evaluated where it stands.
-impl<const D: usize> State for Landscape<'_, D> {
+impl<const D: usize> State for Energy<'_, D> {
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
         self.particles.save(out)?;
         self.forces.save(out)?;
@@ -318,7 +353,7 @@ impl<const D: usize> State for Landscape<'_, D> {
         self.on_surface.save(out)?;
         self.sides.save(out)?;
         self.walls.save(out)?;
-        (self.projection_seconds, self.calm_seconds).save(out)
+        (self.projection_seconds, self.penalty_seconds).save(out)
     }
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
@@ -345,7 +380,9 @@ impl<const D: usize> State for Landscape<'_, D> {
             added.evaluate_again(self.particles);
         }
         self.add_up();
-        (self.projection_seconds, self.calm_seconds) = seconds;
+        self.is_stale = false;
+        self.is_changed = false;
+        (self.projection_seconds, self.penalty_seconds) = seconds;
         Ok(())
     }
 }

@@ -12,13 +12,13 @@ use crate::particles::Particles;
 ///
 /// Evaluated pair by pair, force against force: for few particles among many.
 #[derive(Debug)]
-pub struct Calm<const D: usize> {
+pub struct GradientPenalty<const D: usize> {
     particles: Vec<u32>,
     stiffness: f64,
     force: Vec<[f64; D]>,
 }
 
-impl<const D: usize> Calm<D> {
+impl<const D: usize> GradientPenalty<D> {
     /// Of these particles, with μ = `stiffness`.
     pub fn of(particles: Vec<u32>, stiffness: f64) -> Self {
         Self {
@@ -28,7 +28,7 @@ impl<const D: usize> Calm<D> {
         }
     }
 
-    /// The energy at the last evaluation of `forces`, volumes in units of `unit`; afterwards [`Calm::force`] is −∇ of
+    /// The energy at the last evaluation of `forces`, volumes in units of `unit`; afterwards [`GradientPenalty::force`] is −∇ of
     /// it. The same bits for any number of threads.
     pub(super) fn evaluate(
         &mut self,

@@ -6,15 +6,17 @@ use std::time::Instant;
 use sphpack_geometry::{Feature, GeometryError, LevelInset, Surface};
 use sphpack_neighbors::{KdTree, point};
 
-use crate::course::Course;
+use super::motion::Motion;
+use crate::estimate::Work;
 use crate::forces::Forces;
-use crate::motion::Motion;
-use crate::observer::{Observer, Phase};
+use crate::methods::info::MethodInfo;
+use crate::observer::Stage;
 use crate::on_surface::OnSurface;
 use crate::packed::{Packed, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::seeding::{particle_surfaces, seed};
+use crate::run_log::RunLog;
+use crate::seeding::seed;
 use sphpack_pairs::Repulsion;
 
 /// The standard method (001 §3.2, algorithm 3), in the plane only.
@@ -51,6 +53,28 @@ const CROWDED: f64 = 0.6;
 const LOOK_EVERY: usize = 50;
 
 impl Standard {
+    /// What it costs, moves and promises.
+    pub const INFO: MethodInfo = MethodInfo {
+        name: "standard",
+        summary: "a solid of offset layers, fluid packed around it; 2-D (paper 001)",
+        dimensions: &[2],
+        fills_box: false,
+        // 650 … 1,700 evaluations.
+        work: Work {
+            evaluations: 1200.0,
+            ..Work::PLAIN
+        },
+        ..MethodInfo::USUAL
+    };
+
+    /// [`Method::check`](crate::Method::check), for any dimension.
+    pub(crate) fn check_in<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+    ) -> Result<(), PackingError> {
+        Self::INFO.check(problem)
+    }
+
     /// Packs the problem.
     ///
     /// # Errors
@@ -58,29 +82,22 @@ impl Standard {
     pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
-        observer: &mut dyn Observer,
+        log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        if D != 2 {
-            return Err(PackingError::OnlyPlane { method: "standard" });
-        }
-        let mut course = Course::new(observer, self.velocity_tolerance, self.max_iterations);
+        Self::INFO.check_dimension(D)?;
+        log.aim(self.velocity_tolerance, self.max_iterations);
         // ReadInput
-        problem.check()?;
-        course.enter(Phase::Geometry);
-        let geometry = Instant::now();
-        let surfaces = particle_surfaces(problem)?;
-        course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
-        course.seconds.geometry = geometry.elapsed().as_secs_f64();
+        let surfaces = log.surfaces(problem)?;
 
         // CreateParticles
-        course.enter(Phase::Seeding);
+        log.enter(Stage::Seeding);
         let seeding = Instant::now();
         let seeds = seed(problem)?;
         let volume = seeds.frozen_lattice.volume_per_site();
         let (mut particles, kinds) = layers(problem, volume)?;
         seeds.surround(problem, &mut particles);
-        course.progress.on_surface = kinds.iter().filter(|kind| kind.is_on_surface()).count();
-        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+        log.progress.on_surface = kinds.iter().filter(|kind| kind.is_on_surface()).count();
+        log.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         // SetConstantAndTimeStep, for p_b = 1
         let h = problem.smoothing_length();
@@ -90,11 +107,11 @@ impl Standard {
         let mut on_surface = OnSurface::default();
         on_surface.refresh(&particles);
         let mut stop_reason = StopReason::IterationLimit;
-        course.enter(Phase::Settling);
+        log.enter(Stage::Settling);
         let mut first = 1;
-        course.go_on(&mut [&mut first, &mut particles, &mut motion, &mut forces])?;
+        log.go_on(&mut [&mut first, &mut particles, &mut motion, &mut forces])?;
         for iteration in first..=self.max_iterations {
-            if course.is_to_stop(&[&iteration, &particles, &motion, &forces]) {
+            if log.is_to_stop(&[&iteration, &particles, &motion, &forces]) {
                 break;
             }
             // UpdateNeighbors, ComputeAccelerations (eq. 26), IntegrateParticles (eqs. 17, 19)
@@ -105,18 +122,15 @@ impl Standard {
             });
             if iteration % LOOK_EVERY == 0 || iteration == self.max_iterations {
                 // CheckConvergence (eq. 23)
-                course.progress.evaluation = iteration;
-                course.progress.criterion = motion.fastest * dt / h;
-                course.tell();
-                course.note(&forces, &particles);
-                if course.progress.criterion < self.velocity_tolerance {
+                let criterion = motion.fastest * dt / h;
+                if log.look(iteration, criterion, &forces, &particles) {
                     stop_reason = StopReason::Converged;
                     break;
                 }
             }
         }
         particles.kind[..kinds.len()].copy_from_slice(&kinds);
-        Ok(course
+        Ok(log
             .end(
                 problem,
                 particles,

@@ -8,11 +8,13 @@ use spade::{
 use sphpack_geometry::{Surface, polygons};
 use sphpack_neighbors::point;
 
-use crate::course::Course;
-use crate::observer::{Observer, Phase};
+use crate::estimate::Work;
+use crate::methods::info::{MethodInfo, Moves};
+use crate::observer::Stage;
 use crate::packed::Packed;
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
+use crate::run_log::RunLog;
 use crate::seeding::{particle_surfaces, seed};
 
 /// Each body is cut into triangles of about ∆s², no angle below 25° but where the body itself is sharper, and each
@@ -34,6 +36,25 @@ const ROUNDS: usize = 8;
 const MOST: f64 = 20.0;
 
 impl Triangulated {
+    /// What it costs, moves and promises.
+    pub const INFO: MethodInfo = MethodInfo {
+        name: "triangulated",
+        summary: "bodies cut into triangles that carry their area, not moved; 2-D: what to compare with",
+        dimensions: &[2],
+        fills_box: false,
+        moves: Moves::Nothing,
+        work: Work::PLAIN,
+        ..MethodInfo::USUAL
+    };
+
+    /// [`Method::check`](crate::Method::check), for any dimension.
+    pub(crate) fn check_in<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+    ) -> Result<(), PackingError> {
+        Self::INFO.check(problem)
+    }
+
     /// Fills the box. One evaluation, to measure.
     ///
     /// # Errors
@@ -41,16 +62,12 @@ impl Triangulated {
     pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
-        observer: &mut dyn Observer,
+        log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        if D != 2 {
-            return Err(PackingError::OnlyPlane {
-                method: "triangulated",
-            });
-        }
-        let mut course = Course::new(observer, 0.0, 1);
+        Self::INFO.check_dimension(D)?;
+        log.aim(0.0, 1);
         problem.check()?;
-        course.enter(Phase::Geometry);
+        log.enter(Stage::Geometry);
         let geometry = Instant::now();
         let surfaces = particle_surfaces(problem)?;
         let mut particles = Particles::default();
@@ -62,13 +79,13 @@ impl Triangulated {
                 }
             }
         }
-        course.seconds.geometry = geometry.elapsed().as_secs_f64();
-        course.enter(Phase::Seeding);
+        log.seconds.geometry = geometry.elapsed().as_secs_f64();
+        log.enter(Stage::Seeding);
         let seeding = Instant::now();
         let seeds = seed(problem)?;
         seeds.surround(problem, &mut particles);
-        course.seconds.seeding = seeding.elapsed().as_secs_f64();
-        Ok(course.end_unmoved(problem, particles, seeds.frozen_lattice, surfaces))
+        log.seconds.seeding = seeding.elapsed().as_secs_f64();
+        Ok(log.end_unmoved(problem, particles, seeds.frozen_lattice, surfaces))
     }
 }
 

@@ -6,18 +6,21 @@ use rayon::prelude::*;
 use sphpack_geometry::{Closest, GeometryError, Surface};
 use sphpack_neighbors::{KdTree, point};
 
-use crate::course::Course;
-use crate::fluid_side::{around_body, tightest, within_body};
+use super::fluid_side::{around_body, tightest, within_body};
+use super::motion::Motion;
+use super::put_back::put_back;
+use super::watch::Watch;
+use crate::estimate::Work;
 use crate::forces::Forces;
-use crate::motion::Motion;
-use crate::observer::{Observer, Phase};
+use crate::methods::info::{CHOOSING, MethodInfo};
+use crate::observer::Stage;
+use crate::off_bound::off_bound;
 use crate::on_surface::OnSurface;
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::put_back::{off_bound, put_back};
+use crate::run_log::RunLog;
 use crate::seeding::{Seeds, seed};
-use crate::watch::Watch;
 use sphpack_pairs::Repulsion;
 
 /// The particle packing algorithm (002 §III).
@@ -80,6 +83,31 @@ const CORNER_ROUNDS: usize = 20;
 const CLEARANCE: f64 = 0.8;
 
 impl Ppa {
+    /// What it costs, moves and promises.
+    pub const INFO: MethodInfo = MethodInfo {
+        name: "ppa",
+        summary: "fluid at rest between walls that never move, for containers (paper 002)",
+        fills_bodies: false,
+        fills_box: false,
+        // 1,800 … 2,550 iterations; fast particles need new lists more often.
+        work: Work {
+            evaluations: 2200.0,
+            times_plain: 1.25,
+            bytes: [120.0, 180.0],
+            placing: CHOOSING,
+            ..Work::PLAIN
+        },
+        ..MethodInfo::USUAL
+    };
+
+    /// [`Method::check`](crate::Method::check), for any dimension. The fluid goes to the true surfaces: none is moved.
+    pub(crate) fn check_in<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+    ) -> Result<(), PackingError> {
+        problem.check()
+    }
+
     /// Packs the problem.
     ///
     /// # Errors
@@ -87,10 +115,10 @@ impl Ppa {
     pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
-        observer: &mut dyn Observer,
+        log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        let mut course = Course::new(observer, self.energy_tolerance, self.max_iterations);
-        course.enter(Phase::Geometry);
+        log.aim(self.energy_tolerance, self.max_iterations);
+        log.enter(Stage::Geometry);
         let geometry = Instant::now();
         problem.check()?;
         // No particle is on a wall: the fluid goes to the true surfaces.
@@ -100,17 +128,17 @@ impl Ppa {
                 target_count: 0,
             })
             .collect();
-        course.seconds.geometry = geometry.elapsed().as_secs_f64();
-        course.enter(Phase::Seeding);
+        log.seconds.geometry = geometry.elapsed().as_secs_f64();
+        log.enter(Stage::Seeding);
         let seeding = Instant::now();
         let Seeds {
             particles: lattice,
             frozen_lattice,
         } = seed(problem)?;
         let mut particles = self.fluid_and_walls(problem, &lattice)?;
-        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+        log.seconds.seeding = seeding.elapsed().as_secs_f64();
 
-        course.enter(Phase::Settling);
+        log.enter(Stage::Settling);
         let size = problem.spacing;
         let viscosity = self.damping / size;
         let dt = self.cfl * size;
@@ -124,7 +152,7 @@ impl Ppa {
         let nearest = |p: [f64; D], _| self.wall(problem, p);
         let mut stop_reason = StopReason::IterationLimit;
         let mut first = 1;
-        course.go_on(&mut [
+        log.go_on(&mut [
             &mut first,
             &mut particles,
             &mut motion,
@@ -132,7 +160,7 @@ impl Ppa {
             &mut forces,
         ])?;
         for iteration in first..=self.max_iterations {
-            if course.is_to_stop(&[&iteration, &particles, &motion, &watch, &forces]) {
+            if log.is_to_stop(&[&iteration, &particles, &motion, &watch, &forces]) {
                 break;
             }
             forces.evaluate(&particles);
@@ -146,17 +174,14 @@ impl Ppa {
                 motion.stop(i);
             }
             if iteration % LOOK_EVERY == 0 || iteration == self.max_iterations {
-                course.progress.evaluation = iteration;
-                course.progress.criterion = motion.mean_kinetic_energy(&particles.kind);
-                course.tell();
-                course.note(&forces, &particles);
-                if course.progress.criterion < self.energy_tolerance {
+                let criterion = motion.mean_kinetic_energy(&particles.kind);
+                if log.look(iteration, criterion, &forces, &particles) {
                     stop_reason = StopReason::Converged;
                     break;
                 }
             }
         }
-        Ok(course
+        Ok(log
             .end(
                 problem,
                 particles,

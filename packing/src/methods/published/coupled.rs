@@ -3,19 +3,23 @@
 use std::time::Instant;
 
 use sphpack_geometry::Closest;
+use sphpack_kernels::KernelKind;
 use sphpack_neighbors::point;
 
-use crate::course::Course;
-use crate::fluid_side::around_body;
+use super::fluid_side::around_body;
+use super::motion::Motion;
+use super::watch::Watch;
+use crate::estimate::Work;
 use crate::forces::Forces;
-use crate::motion::Motion;
-use crate::observer::{Observer, Phase};
+use crate::lattice::Lattice;
+use crate::methods::info::MethodInfo;
+use crate::observer::Stage;
 use crate::on_surface::OnSurface;
 use crate::packed::{Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
-use crate::seeding::{Seeds, particle_surfaces, seed};
-use crate::watch::Watch;
+use crate::run_log::RunLog;
+use crate::seeding::{Seeds, seed};
 use sphpack_pairs::Repulsion;
 
 /// The coupled method (001 §3.3, algorithms 4 and 5, after Jiang et al. 2015), in the plane and in space.
@@ -67,6 +71,31 @@ const SYMMETRIC: f64 = 2.0;
 const LOOK_EVERY: usize = 50;
 
 impl Coupled {
+    /// What it costs, moves and promises.
+    pub const INFO: MethodInfo = MethodInfo {
+        name: "coupled",
+        summary: "inside and outside packed apart, then together (paper 001)",
+        kernel: KernelKind::Cubic,
+        h_over_spacing: 1.0,
+        lattices: Some([Lattice::Square, Lattice::SimpleCubic]),
+        // Twice 5,000 iterations of one side with two sums each, then 2,750 … 20,000 of all with one.
+        work: Work {
+            evaluations: 10_000.0,
+            before: 10_000.0,
+            lists: 2.0,
+            ..Work::PLAIN
+        },
+        ..MethodInfo::USUAL
+    };
+
+    /// [`Method::check`](crate::Method::check), for any dimension.
+    pub(crate) fn check_in<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+    ) -> Result<(), PackingError> {
+        Self::INFO.check(problem)
+    }
+
     /// Packs the problem.
     ///
     /// # Errors
@@ -74,34 +103,29 @@ impl Coupled {
     pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
-        observer: &mut dyn Observer,
+        log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
         let limit = 2 * self.apart_iterations + self.max_iterations;
-        let mut course = Course::new(observer, self.velocity_tolerance, limit);
+        log.aim(self.velocity_tolerance, limit);
         // ReadInput
-        problem.check()?;
-        course.enter(Phase::Geometry);
-        let geometry = Instant::now();
-        let surfaces = particle_surfaces(problem)?;
-        course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
-        course.seconds.geometry = geometry.elapsed().as_secs_f64();
+        let surfaces = log.surfaces(problem)?;
 
         // CreateParticles, DivideDomain
-        course.enter(Phase::Seeding);
+        log.enter(Stage::Seeding);
         let seeding = Instant::now();
         let Seeds {
             particles: lattice,
             frozen_lattice,
         } = seed(problem)?;
         let [mut inner, mut outer] = divide(problem, &surfaces, &lattice);
-        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+        log.seconds.seeding = seeding.elapsed().as_secs_f64();
 
-        course.enter(Phase::Capture);
+        log.enter(Stage::Capture);
         if !problem.bodies.is_empty() {
-            self.pack_apart(problem, &mut inner, &mut course, 0, &|p, body| {
+            self.pack_apart(problem, &mut inner, log, 0, &|p, body| {
                 surfaces[usize::from(body)].surface.closest(p)
             })?;
-            self.pack_apart(problem, &mut outer, &mut course, 1, &|p, _| {
+            self.pack_apart(problem, &mut outer, log, 1, &|p, _| {
                 outer_surface(problem, p)
             })?;
         }
@@ -115,10 +139,9 @@ impl Coupled {
             inner.push(outer.position[i], kind, outer.volume[i], None);
         }
         let mut particles = inner;
-        course.enter(Phase::Settling);
-        let (stop_reason, forces) =
-            self.pack_together(problem, &mut particles, &surfaces, &mut course)?;
-        Ok(course
+        log.enter(Stage::Settling);
+        let (stop_reason, forces) = self.pack_together(problem, &mut particles, &surfaces, log)?;
+        Ok(log
             .end(
                 problem,
                 particles,
@@ -130,13 +153,13 @@ impl Coupled {
             .with_known_sides())
     }
 
-    /// Algorithm 4 on one domain, as loop `place` of the course. `nearest` tells the nearest place on its surface, seen from a place of a body's, and
+    /// Algorithm 4 on one domain, as loop `place` of the log. `nearest` tells the nearest place on its surface, seen from a place of a body's, and
     /// how far beyond it that is (negative within).
     fn pack_apart<const D: usize>(
         &self,
         problem: &Problem<D>,
         particles: &mut Particles<D>,
-        course: &mut Course<'_>,
+        log: &mut RunLog<'_>,
         place: usize,
         nearest: &(dyn Fn([f64; D], u16) -> Closest<D> + Sync),
     ) -> Result<(), PackingError> {
@@ -149,8 +172,8 @@ impl Coupled {
         let mut on_surface = OnSurface::default();
         on_surface.refresh(particles);
         let mut watch = Watch::new(particles.len());
-        let (mut begin, mut first) = (course.progress.evaluation, 1);
-        course.go_on(&mut [
+        let (mut begin, mut first) = (log.progress.evaluation, 1);
+        log.go_on(&mut [
             &mut begin,
             &mut first,
             particles,
@@ -161,7 +184,7 @@ impl Coupled {
             &mut pull,
         ])?;
         for iteration in first..=self.apart_iterations {
-            if course.is_to_stop(&[
+            if log.is_to_stop(&[
                 &begin,
                 &iteration,
                 particles,
@@ -192,15 +215,17 @@ impl Coupled {
                 on_surface.refresh(particles);
             }
             on_surface.project_by(particles, |p, body| Some(nearest(p, body)));
-            course.seconds.projection += projecting.elapsed().as_secs_f64();
+            log.seconds.projection += projecting.elapsed().as_secs_f64();
             if iteration % LOOK_EVERY == 0 {
-                course.progress.evaluation = begin + iteration;
-                course.progress.criterion = motion.fastest * dt / h;
-                course.tell();
-                course.note(&forces, particles);
+                log.look(
+                    begin + iteration,
+                    motion.fastest * dt / h,
+                    &forces,
+                    particles,
+                );
             }
         }
-        course.set_aside(
+        log.set_aside(
             place,
             &[
                 &begin,
@@ -213,8 +238,8 @@ impl Coupled {
                 &pull,
             ],
         );
-        course.count(&forces);
-        course.count(&pull);
+        log.count(&forces);
+        log.count(&pull);
         Ok(())
     }
 
@@ -224,7 +249,7 @@ impl Coupled {
         problem: &Problem<D>,
         particles: &mut Particles<D>,
         surfaces: &[ParticleSurface<D>],
-        course: &mut Course<'_>,
+        log: &mut RunLog<'_>,
     ) -> Result<(StopReason, Forces<D>), PackingError> {
         let h = problem.smoothing_length();
         let zeta = self.damping * SYMMETRIC.sqrt() / problem.spacing;
@@ -232,9 +257,9 @@ impl Coupled {
         let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
         on_surface.refresh(particles);
-        course.progress.on_surface = on_surface.index.len();
-        let (mut begin, mut first) = (course.progress.evaluation, 1);
-        course.go_on(&mut [
+        log.progress.on_surface = on_surface.index.len();
+        let (mut begin, mut first) = (log.progress.evaluation, 1);
+        log.go_on(&mut [
             &mut begin,
             &mut first,
             particles,
@@ -243,7 +268,7 @@ impl Coupled {
             &mut forces,
         ])?;
         for iteration in first..=self.max_iterations {
-            if course.is_to_stop(&[&begin, &iteration, particles, &on_surface, &motion, &forces]) {
+            if log.is_to_stop(&[&begin, &iteration, particles, &on_surface, &motion, &forces]) {
                 break;
             }
             forces.evaluate(particles);
@@ -254,11 +279,8 @@ impl Coupled {
             on_surface.project(particles, surfaces, problem.support());
             if iteration % LOOK_EVERY == 0 || iteration == self.max_iterations {
                 // CheckConvergence (eq. 23)
-                course.progress.evaluation = begin + iteration;
-                course.progress.criterion = motion.fastest * dt / h;
-                course.tell();
-                course.note(&forces, particles);
-                if course.progress.criterion < self.velocity_tolerance {
+                let criterion = motion.fastest * dt / h;
+                if log.look(begin + iteration, criterion, &forces, particles) {
                     return Ok((StopReason::Converged, forces));
                 }
             }

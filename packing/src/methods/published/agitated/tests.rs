@@ -6,7 +6,7 @@ use sphpack_neighbors::{Domain, point};
 use super::near::{Near, REACH};
 use super::{Agitated, Agitators};
 use crate::particles::Particles;
-use crate::{Kind, Lattice, Method, Problem, Silent, StopReason};
+use crate::{Kind, Lattice, Method, Problem, RunLog, Silent, StopReason};
 
 /// Repulsion reaches across periodic sides: it conserves momentum there, and pushes as it does within.
 #[test]
@@ -45,7 +45,9 @@ fn a_lattice_without_agitators_stays() {
             agitators,
             ..Agitated::default()
         };
-        let packed = method.pack(&problem, &mut Silent).expect("a sound problem");
+        let packed = method
+            .pack(&problem, &mut RunLog::new(&mut Silent))
+            .expect("a sound problem");
         assert_eq!(packed.stop_reason, StopReason::Converged);
         assert_eq!(packed.particles.count(Kind::Fixed), 0);
         packed
@@ -65,7 +67,7 @@ fn the_surface_has_its_share_and_the_error_settles() {
     let problem = Problem::new(Domain::new([-1.2; 2], [1.2; 2]), 0.12)
         .body("disc", Ball::new([0.0; 2], 0.6).expect("a disc"));
     let packed = Agitated::default()
-        .pack(&problem, &mut Silent)
+        .pack(&problem, &mut RunLog::new(&mut Silent))
         .expect("a sound problem");
     assert_eq!(packed.stop_reason, StopReason::Converged);
     let (on, wanted) = (

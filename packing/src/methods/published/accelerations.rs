@@ -67,7 +67,7 @@ mod tests {
     use sphpack_neighbors::{Domain, point};
 
     use crate::seeding::seed;
-    use crate::{Hybrid, Kind, Method, Packed, Problem, Silent};
+    use crate::{Hybrid, Kind, Method, Packed, Problem, RunLog, Silent};
 
     fn disc() -> Problem<2> {
         Problem::new(Domain::new([-1.2; 2], [1.2; 2]), 0.1)
@@ -79,7 +79,9 @@ mod tests {
             velocity_tolerance: 1e-3,
             ..hybrid
         };
-        hybrid.pack(&disc(), &mut Silent).expect("a sound problem")
+        hybrid
+            .pack(&disc(), &mut RunLog::new(&mut Silent))
+            .expect("a sound problem")
     }
 
     #[test]

@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use sphpack_geometry::Closest;
 use sphpack_neighbors::point;
 
+use super::put_back::put_back;
+use super::watch::Watch;
 use crate::confinement::Confinement;
 use crate::forces::{Forces, blocked_sum, largest};
 use crate::particles::{Kind, Particles};
-use crate::put_back::put_back;
 use crate::state::{Damaged, State, load_as_many};
-use crate::watch::Watch;
 
 /// The surface that bounds: its nearest place, and how far a place is beyond it (negative within).
 pub(crate) type Bound<'a, const D: usize> = Box<dyn Fn([f64; D], u16) -> Closest<D> + Sync + 'a>;

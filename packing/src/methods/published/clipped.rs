@@ -2,11 +2,13 @@
 
 use std::time::Instant;
 
-use crate::course::Course;
-use crate::observer::{Observer, Phase};
+use crate::estimate::Work;
+use crate::methods::info::{MethodInfo, Moves};
+use crate::observer::Stage;
 use crate::packed::Packed;
 use crate::particles::Kind;
 use crate::problem::{PackingError, Problem};
+use crate::run_log::RunLog;
 use crate::seeding::{Seeds, particle_surfaces, seed};
 
 /// Leaves every particle on its lattice site; a site inside a body is the body's. The density is the lattice's, the
@@ -15,6 +17,23 @@ use crate::seeding::{Seeds, particle_surfaces, seed};
 pub struct Clipped;
 
 impl Clipped {
+    /// What it costs, moves and promises.
+    pub const INFO: MethodInfo = MethodInfo {
+        name: "clipped",
+        summary: "the lattice as it is, clipped by the bodies: what to compare with",
+        moves: Moves::Nothing,
+        work: Work::PLAIN,
+        ..MethodInfo::USUAL
+    };
+
+    /// [`Method::check`](crate::Method::check), for any dimension.
+    pub(crate) fn check_in<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+    ) -> Result<(), PackingError> {
+        Self::INFO.check(problem)
+    }
+
     /// Fills the box. One evaluation, to measure.
     ///
     /// # Errors
@@ -22,10 +41,10 @@ impl Clipped {
     pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
-        observer: &mut dyn Observer,
+        log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        let mut course = Course::new(observer, 0.0, 1);
-        course.enter(Phase::Seeding);
+        log.aim(0.0, 1);
+        log.enter(Stage::Seeding);
         let seeding = Instant::now();
         let Seeds {
             mut particles,
@@ -40,7 +59,7 @@ impl Clipped {
             }
         }
         let surfaces = particle_surfaces(problem)?;
-        course.seconds.seeding = seeding.elapsed().as_secs_f64();
-        Ok(course.end_unmoved(problem, particles, frozen_lattice, surfaces))
+        log.seconds.seeding = seeding.elapsed().as_secs_f64();
+        Ok(log.end_unmoved(problem, particles, frozen_lattice, surfaces))
     }
 }

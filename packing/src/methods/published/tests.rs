@@ -8,7 +8,8 @@ use sphpack_neighbors::Domain;
 
 use crate::{
     Agitated, Clipped, Complex, Coupled, Hybrid, Kind, Lattice, Observer, Packed, PackingError,
-    Ppa, Problem, Progress, Quality, Relaxation, Silent, Standard, StopReason, Triangulated,
+    Ppa, Problem, Progress, Quality, Relaxation, RunLog, Silent, Standard, StopReason,
+    Triangulated,
 };
 
 /// Packs with so many iterations at most.
@@ -27,13 +28,13 @@ const SHORT: Relaxation = Relaxation {
 const LEVELLED: Complex = Complex {
     relaxation: SHORT,
     levelling: 1000.0,
-    calm: 100.0,
+    gradient_penalty: 100.0,
 };
 
 /// Each with limits that a test can afford.
 fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
     vec![
-        ("clipped", |p, _, o| Clipped.pack_in(p, o)),
+        ("clipped", |p, _, o| Clipped.pack_in(p, &mut RunLog::new(o))),
         ("hybrid", |p, most, o| {
             let hybrid = Hybrid {
                 velocity_tolerance: 1e-3,
@@ -43,7 +44,7 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
                 max_iterations: hybrid.max_iterations.min(most),
                 ..hybrid
             }
-            .pack_in(p, o)
+            .pack_in(p, &mut RunLog::new(o))
         }),
         ("coupled", |p, most, o| {
             Coupled {
@@ -52,15 +53,17 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
                 max_iterations: most.min(1000),
                 ..Coupled::default()
             }
-            .pack_in(p, o)
+            .pack_in(p, &mut RunLog::new(o))
         }),
-        ("relaxation", |p, most, o| short(most).pack_in(p, o)),
+        ("relaxation", |p, most, o| {
+            short(most).pack_in(p, &mut RunLog::new(o))
+        }),
         ("complex", |p, most, o| {
             Complex {
                 relaxation: short(most),
                 ..LEVELLED
             }
-            .pack_in(p, o)
+            .pack_in(p, &mut RunLog::new(o))
         }),
         ("agitated", |p, most, o| {
             Agitated {
@@ -68,7 +71,7 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
                 max_iterations: most.min(if D == 2 { 5000 } else { 500 }),
                 ..Agitated::default()
             }
-            .pack_in(p, o)
+            .pack_in(p, &mut RunLog::new(o))
         }),
         ("ppa", |p, most, o| {
             Ppa {
@@ -76,7 +79,7 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
                 energy_tolerance: 1e-6,
                 ..Ppa::default()
             }
-            .pack_in(p, o)
+            .pack_in(p, &mut RunLog::new(o))
         }),
     ]
 }
@@ -100,9 +103,11 @@ fn plane_methods() -> Vec<(&'static str, Pack<2>)> {
             max_iterations: standard.max_iterations.min(most),
             ..standard
         }
-        .pack_in(p, o)
+        .pack_in(p, &mut RunLog::new(o))
     }));
-    all.push(("triangulated", |p, _, o| Triangulated.pack_in(p, o)));
+    all.push(("triangulated", |p, _, o| {
+        Triangulated.pack_in(p, &mut RunLog::new(o))
+    }));
     all
 }
 
@@ -161,7 +166,7 @@ fn bar(name: &str, dimension: usize) -> Bar {
 }
 
 fn quality<const D: usize>(packed: &Packed<D>) -> Quality {
-    packed.quality(&packed.fields(KernelKind::Quintic, 1.2))
+    packed.quality_by(&packed.fields(KernelKind::Quintic, 1.2))
 }
 
 fn check<const D: usize>(name: &str, problem: &Problem<D>, pack: Pack<D>) {
@@ -251,7 +256,7 @@ fn every_method_stops_when_told_and_copes_without_bodies() {
 
 #[test]
 fn layers_are_for_the_plane() {
-    let refused = Standard::default().pack_in(&ball(), &mut Silent);
+    let refused = Standard::default().pack_in(&ball(), &mut RunLog::new(&mut Silent));
     assert!(matches!(refused, Err(PackingError::OnlyPlane { .. })));
 }
 
@@ -264,7 +269,9 @@ fn a_tank_keeps_its_fluid() {
         containers: vec![true],
         ..Ppa::default()
     };
-    let packed = ppa.pack_in(&problem, &mut Silent).expect("a sound problem");
+    let packed = ppa
+        .pack_in(&problem, &mut RunLog::new(&mut Silent))
+        .expect("a sound problem");
     assert_eq!(packed.stop_reason, StopReason::Converged);
     assert!(packed.iterations <= 4000, "{}", packed.iterations);
     let particles = &packed.particles;
@@ -300,9 +307,11 @@ fn a_tank_with_bends_comes_to_rest() {
         containers: vec![true],
         ..Ppa::default()
     };
-    let packed = ppa.pack_in(&problem, &mut Silent).expect("a sound problem");
+    let packed = ppa
+        .pack_in(&problem, &mut RunLog::new(&mut Silent))
+        .expect("a sound problem");
     assert_eq!(packed.stop_reason, StopReason::Converged);
-    let quality = packed.quality(&packed.fields(problem.kernel, problem.h_over_spacing));
+    let quality = packed.quality_by(&packed.fields(problem.kernel, problem.h_over_spacing));
     let closest = quality.closest_pair_over_spacing;
     assert!(closest > 0.5, "{closest}");
 }
@@ -319,7 +328,7 @@ fn triangles_carry_the_area_of_their_body() {
         (box_of().body("disc", disc), false),
     ] {
         let packed = Triangulated
-            .pack_in(&problem, &mut Silent)
+            .pack_in(&problem, &mut RunLog::new(&mut Silent))
             .expect("triangles");
         let body = problem.bodies[0].surface.as_ref();
         let mine: Vec<usize> = (0..packed.particles.len())
@@ -384,13 +393,17 @@ fn complex_relaxation_brings_the_first_layer_to_rest() {
         ..Relaxation::default()
     };
     let layers = |problem: &Problem<2>| {
-        let apart = relaxation.pack_in(problem, &mut Silent).expect("apart");
+        let apart = relaxation
+            .pack_in(problem, &mut RunLog::new(&mut Silent))
+            .expect("apart");
         let complex = Complex {
             relaxation,
             levelling: 0.0,
             ..LEVELLED
         };
-        let complex = complex.pack_in(problem, &mut Silent).expect("together");
+        let complex = complex
+            .pack_in(problem, &mut RunLog::new(&mut Silent))
+            .expect("together");
         (first_layer(problem, &apart), first_layer(problem, &complex))
     };
     let mut smooth = disc();
@@ -408,7 +421,7 @@ fn complex_relaxation_brings_the_first_layer_to_rest() {
 fn relaxed_bodies_keep_their_volume_and_their_places_apart() {
     let problem = zigzag(0.05);
     let packed = LEVELLED
-        .pack_in(&problem, &mut Silent)
+        .pack_in(&problem, &mut RunLog::new(&mut Silent))
         .expect("a sound problem");
     let quality = quality(&packed);
     let particles = &packed.particles;
@@ -440,7 +453,7 @@ fn levelling_keeps_each_side_within_the_papers_range_by_its_own_h() {
         let problem = zigzag(spacing);
         let sides = |complex: Complex| {
             let packed = complex
-                .pack_in(&problem, &mut Silent)
+                .pack_in(&problem, &mut RunLog::new(&mut Silent))
                 .expect("a sound problem");
             [off(&packed, 1.05, false), off(&packed, 1.3, true)]
         };
@@ -463,10 +476,10 @@ fn surface_particles_may_sit_on_the_surface_or_near_it() {
         let linf = |packed: Result<Packed<2>, PackingError>| {
             quality(&packed.expect("a sound problem")).density.linf
         };
-        let start = linf(short(1).pack_in(&problem, &mut Silent));
-        let off = linf(SHORT.pack_in(&problem, &mut Silent));
+        let start = linf(short(1).pack_in(&problem, &mut RunLog::new(&mut Silent)));
+        let off = linf(SHORT.pack_in(&problem, &mut RunLog::new(&mut Silent)));
         assert!(off < apart && off < 0.5 * start, "{inset}: {start} {off}");
-        let off = linf(LEVELLED.pack_in(&problem, &mut Silent));
+        let off = linf(LEVELLED.pack_in(&problem, &mut RunLog::new(&mut Silent)));
         assert!(
             off < levelled && off < 0.05 * start,
             "{inset}: {start} {off}"

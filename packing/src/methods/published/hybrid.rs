@@ -2,18 +2,19 @@
 
 use std::time::Instant;
 
-use crate::course::{Begin, Course};
+use super::accelerations::{hold, predict};
+use super::captured::Captured;
+use super::motion::Motion;
 use crate::forces::Forces;
-use crate::minimise::{Landscape, Settling};
-use crate::motion::Motion;
-use crate::observer::{Observer, Phase};
+use crate::methods::info::MethodInfo;
+use crate::minimise::{Energy, Settling};
+use crate::observer::Stage;
 use crate::on_surface::{OnSurface, capture};
 use crate::packed::{Packed, StopReason};
 use crate::particles::Kind;
-use crate::predicted::{hold, predict};
 use crate::problem::{PackingError, Problem};
-use crate::seeding::{Seeds, fix_corners, particle_surfaces, seed};
-use crate::state::Captured;
+use crate::run_log::{Begin, RunLog};
+use crate::seeding::{Seeds, fix_corners, seed};
 use sphpack_pairs::Repulsion;
 
 /// The hybrid method (001 §3.1, algorithms 1 and 2), with its constants.
@@ -70,6 +71,21 @@ impl Default for Hybrid {
 }
 
 impl Hybrid {
+    /// What it costs, moves and promises.
+    pub const INFO: MethodInfo = MethodInfo {
+        name: "hybrid",
+        summary: "captures the surface, then settles by damped dynamics (paper 001)",
+        ..MethodInfo::USUAL
+    };
+
+    /// [`Method::check`](crate::Method::check), for any dimension.
+    pub(crate) fn check_in<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+    ) -> Result<(), PackingError> {
+        Self::INFO.check(problem)
+    }
+
     /// Packs the problem.
     ///
     /// # Errors
@@ -77,19 +93,14 @@ impl Hybrid {
     pub(crate) fn pack_in<const D: usize>(
         &self,
         problem: &Problem<D>,
-        observer: &mut dyn Observer,
+        log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        let mut course = Course::new(observer, self.velocity_tolerance, self.max_iterations);
+        log.aim(self.velocity_tolerance, self.max_iterations);
         // ReadInput
-        problem.check()?;
-        course.enter(Phase::Geometry);
-        let geometry = Instant::now();
-        let surfaces = particle_surfaces(problem)?;
-        course.progress.target = surfaces.iter().map(|surface| surface.target_count).sum();
-        course.seconds.geometry = geometry.elapsed().as_secs_f64();
+        let surfaces = log.surfaces(problem)?;
 
         // CreateParticles
-        course.enter(Phase::Seeding);
+        log.enter(Stage::Seeding);
         let seeding = Instant::now();
         let Seeds {
             mut particles,
@@ -101,7 +112,7 @@ impl Hybrid {
         }
         let reach = self.moving_over_spacing * problem.spacing;
         let unmoved = hold(&mut particles, &surfaces, reach);
-        course.seconds.seeding = seeding.elapsed().as_secs_f64();
+        log.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         // SetConstantAndTimeStep, for p_b = 1
         let (h, spacing) = (problem.smoothing_length(), problem.spacing);
@@ -119,9 +130,9 @@ impl Hybrid {
         };
         let mut at = (0, 0, interval, next_capture);
         let mut stop_reason = StopReason::IterationLimit;
-        course.progress.phase = Phase::Capture;
+        log.progress.stage = Stage::Capture;
         let bodies = surfaces.len();
-        let begin = course.go_on(&mut [
+        let begin = log.go_on(&mut [
             &mut at,
             &mut Captured {
                 particles: &mut particles,
@@ -135,7 +146,7 @@ impl Hybrid {
         let mut is_captured = begin == Begin::Beyond;
 
         while !is_captured && iteration < self.max_iterations {
-            if course.is_to_stop(&[
+            if log.is_to_stop(&[
                 &(iteration, empty_count, interval, next_capture),
                 &Captured {
                     particles: &mut particles,
@@ -174,38 +185,38 @@ impl Hybrid {
                 next_capture = iteration + interval as usize;
             }
             on_surface.project(&mut particles, &surfaces, problem.support());
-            course.seconds.projection += projecting.elapsed().as_secs_f64();
+            log.seconds.projection += projecting.elapsed().as_secs_f64();
             iteration += 1;
 
             if is_pass {
                 // CheckConvergence (eq. 23)
                 let settled = empty_count > self.empty_passes;
-                course.progress.phase = if settled {
-                    Phase::Settling
+                log.progress.stage = if settled {
+                    Stage::Settling
                 } else {
-                    Phase::Capture
+                    Stage::Capture
                 };
-                course.progress.evaluation = iteration;
-                course.progress.criterion = motion.fastest * dt / h;
-                course.progress.on_surface = on_surface.index.len() + particles.count(Kind::Fixed);
-                course.tell();
-                course.note(&forces, &particles);
+                log.progress.evaluation = iteration;
+                log.progress.criterion = motion.fastest * dt / h;
+                log.progress.on_surface = on_surface.index.len() + particles.count(Kind::Fixed);
+                log.tell();
+                log.note(&forces, &particles);
                 is_captured = settled && self.settling.is_some();
                 if is_captured {
                     break;
                 }
-                if settled && course.progress.criterion < self.velocity_tolerance {
+                if settled && log.progress.criterion < self.velocity_tolerance {
                     stop_reason = StopReason::Converged;
                     break;
                 }
             }
         }
-        course.progress.evaluation = iteration;
+        log.progress.evaluation = iteration;
         if let Some(settling) = &self.settling
             && is_captured
             && iteration < self.max_iterations
         {
-            course.set_aside(
+            log.set_aside(
                 0,
                 &[
                     &(iteration, empty_count, interval, next_capture),
@@ -218,17 +229,17 @@ impl Hybrid {
                     &forces,
                 ],
             );
-            course.progress.tolerance = settling.tolerance();
+            log.progress.tolerance = settling.tolerance();
+            let stages = settling.schedule(spacing, problem.perfect_gamma());
             let reach = problem.support();
-            let mut landscape = Landscape::new(&mut particles, &surfaces, forces, spacing, reach);
-            stop_reason =
-                settling.run(&mut landscape, &mut course, problem.perfect_gamma(), false)?;
-            forces = landscape.into_forces();
+            let mut energy = Energy::new(&mut particles, &surfaces, forces, spacing, reach);
+            stop_reason = settling.run(&mut energy, log, &stages)?;
+            forces = energy.into_forces();
         }
         for i in unmoved {
             particles.kind[i] = Kind::Free;
         }
-        Ok(course.end(
+        Ok(log.end(
             problem,
             particles,
             frozen_lattice,
