@@ -97,7 +97,7 @@ impl Audit {
         let quality = &solution.quality;
         let density = &quality.density;
         let mut audit = Self::clean(
-            solution.problem.spacing,
+            solution.problem.spacing(),
             quality.closest_pair_over_spacing,
             [density.min, density.max],
         );

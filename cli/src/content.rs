@@ -28,8 +28,11 @@ pub(crate) fn volumes<const D: usize>(problem: &Problem<D>, solution: &Solution<
         volumes[inner] += share * volume;
         if let Some((own, share)) = on {
             let hit = bodies[own].surface.closest(particles.position[i]);
-            let beyond =
-                point::add_scaled(hit.point, BEYOND_OVER_SPACING * problem.spacing, hit.normal);
+            let beyond = point::add_scaled(
+                hit.point,
+                BEYOND_OVER_SPACING * problem.spacing(),
+                hit.normal,
+            );
             let there = (0..bodies.len())
                 .find(|&b| b != own && bodies[b].surface.inside(beyond))
                 .unwrap_or(bodies.len());

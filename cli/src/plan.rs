@@ -265,7 +265,7 @@ where
     }
     let empty = Problem {
         domain,
-        spacing: scene.spacing,
+        resolution: scene.spacing.into(),
         bodies: Vec::new(),
         kernel: scene.packing.kernel(),
         h_over_spacing: scene.packing.h_over_spacing(),

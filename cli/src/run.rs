@@ -180,10 +180,7 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .map(|i| density(i) * particles.volume[i])
             .collect(),
         gamma: fields.gamma.clone(),
-        residual: all
-            .clone()
-            .map(|i| fields.smoothing_length * point::norm(fields.gradient[i]))
-            .collect(),
+        residual: all.clone().map(|i| fields.residual(i)).collect(),
         normals: all.filter_map(normal).collect(),
         pressure: at_rest.iter().map(|rest| rest.pressure).collect(),
         density: at_rest.iter().map(|rest| rest.density).collect(),
@@ -288,7 +285,7 @@ fn report<const D: usize>(
         version: env!("CARGO_PKG_VERSION"),
         scene: scene.clone(),
         dimension: D,
-        spacing: problem.spacing,
+        spacing: problem.spacing(),
         method: scene.packing.method.name(),
         kernel: problem.kernel.name(),
         h_over_spacing: problem.h_over_spacing,

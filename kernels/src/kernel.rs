@@ -39,6 +39,12 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
     /// dW/dr; 0 beyond the support and at `r = 0`.
     fn slope(&self, r: f64) -> f64;
 
+    /// [`Kernel::value`] and [`Kernel::slope`] together.
+    #[inline]
+    fn value_and_slope(&self, r: f64) -> (f64, f64) {
+        (self.value(r), self.slope(r))
+    }
+
     /// W and (dW/dr)/r from the **squared** distance, without branches: what a pair loop needs, since
     /// ∇W = (dW/dr)/r · (x_i − x_j). The second is finite at `r = 0`.
     fn value_and_slope_over_r(&self, r_squared: f64) -> (f64, f64);

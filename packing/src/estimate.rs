@@ -142,7 +142,7 @@ impl<const D: usize> Problem<D> {
         let all = particles + frozen;
         // Blocks of eight list every candidate within the reach of any of the eight: about twice the neighbours.
         let listed = |reach: f64| 4.0 * 2.2 / 8.0 * unit_ball * reach.powi(D as i32) / per_site;
-        let on_surface = area / self.spacing.powi(D as i32 - 1);
+        let on_surface = area / self.spacing().powi(D as i32 - 1);
         let sides = work.confined_sides;
         let (mut patches, mut confining) = (0.0, 0.0);
         if sides > 0.0 {
@@ -164,7 +164,7 @@ impl<const D: usize> Problem<D> {
             } else {
                 0.0
             };
-        let in_support = (self.support() / self.spacing).powi(D as i32);
+        let in_support = (self.support() / self.spacing()).powi(D as i32);
         Ok(Estimate {
             particles,
             frozen,
@@ -191,6 +191,6 @@ impl<const D: usize> Problem<D> {
                     .sum::<f64>()
             })
             .sum();
-        length / self.spacing
+        length / self.spacing()
     }
 }

@@ -54,10 +54,18 @@ impl Levelling {
 }
 
 /// Evaluates Γ, ∇Γ, repulsion and energy; keeps the neighbour list between calls.
+///
+/// Where particles differ in size, its lengths (smoothing length, skin, repulsion) are those of the finest, and scale with each
+/// particle, with the mean of both in a pair's repulsion. Γ_i and ∇Γ_i are then gathered with the particle's own h.
 #[derive(Debug)]
 pub struct Forces<const D: usize> {
     shape: Shape,
     smoothing_length: f64,
+    /// The kernel's support and the list's skin, scene units.
+    support: f64,
+    skin: f64,
+    /// Supports, and smoothing lengths, where particles differ in size.
+    each: [Vec<f64>; 2],
     /// The repulsion, which may be changed between evaluations.
     pub repulsion: Repulsion,
     /// The levelling, which may be changed between evaluations.
@@ -125,6 +133,9 @@ impl<const D: usize> Forces<D> {
         Self {
             shape,
             smoothing_length,
+            support,
+            skin,
+            each: [Vec::new(), Vec::new()],
             repulsion,
             levelling: None,
             levelled: Vec::new(),
@@ -157,37 +168,56 @@ impl<const D: usize> Forces<D> {
     /// only when the neighbour list is built anew.
     pub fn evaluate(&mut self, particles: &Particles<D>) {
         let is_target = |i: usize| particles.kind[i] != crate::Kind::Frozen;
-        self.evaluate_plain(&particles.position, &particles.volume, is_target);
+        let relative = particles.sizes.relative();
+        self.evaluate_each(&particles.position, &particles.volume, relative, is_target);
     }
 
-    /// [`Forces::evaluate`] on plain slices.
+    /// [`Forces::evaluate`] on plain slices, of particles of one size.
     pub fn evaluate_plain(
         &mut self,
         positions: &[[f64; D]],
         volumes: &[f64],
         is_target: impl Fn(usize) -> bool + Sync,
     ) {
+        self.evaluate_each(positions, volumes, None, is_target);
+    }
+
+    /// [`Forces::evaluate_plain`] with every particle's size over the finest, where they differ.
+    pub fn evaluate_each(
+        &mut self,
+        positions: &[[f64; D]],
+        volumes: &[f64],
+        relative: Option<&[f64]>,
+        is_target: impl Fn(usize) -> bool + Sync,
+    ) {
         let start = Instant::now();
+        self.take_sizes(relative);
         if let Some(places) = self
             .built_at
             .take_if(|places| places.len() == positions.len())
         {
             self.set_shells();
-            self.list.update_some(&places, &is_target);
+            self.update_list(&places, &is_target);
             self.sums.resize(self.list.targets(), PackingSum::default());
         }
         if self.list.builds() == 0 || self.repulsion.reach() > self.reach {
             self.reach = self.repulsion.reach().max(self.reach);
             self.set_shells();
         }
-        if self.list.update_some(positions, is_target) {
+        if self.update_list(positions, is_target) {
             self.sums.resize(self.list.targets(), PackingSum::default());
         }
         let listed = Instant::now();
         let h = self.smoothing_length;
-        self.gathered.gather(&self.list, positions, volumes, h);
+        if relative.is_none() {
+            self.gathered.gather(&self.list, positions, volumes, h);
+        } else {
+            let each = &self.each[1];
+            (self.gathered).gather_each(&self.list, positions, volumes, each);
+        }
         let pairs = sums_of(self.shape, h, &self.list, &self.gathered, self.level);
-        pairs.sum::<D>(self.repulsion, &mut self.sums);
+        let repulsion = self.repulsion.at_size(h);
+        pairs.sum::<D>(repulsion, &mut self.sums);
         if let Some(levelling) = self.levelling {
             self.level_out(levelling, volumes);
         }
@@ -196,9 +226,53 @@ impl<const D: usize> Forces<D> {
         self.force_seconds += listed.elapsed().as_secs_f64();
     }
 
+    /// Supports and smoothing lengths of all, of as many as the finest has.
+    fn take_sizes(&mut self, relative: Option<&[f64]>) {
+        let was_each = !self.each[1].is_empty();
+        for each in &mut self.each {
+            each.clear();
+        }
+        let (seen, h) = (self.seen(), self.smoothing_length);
+        if let Some(relative) = relative {
+            let [supports, lengths] = &mut self.each;
+            supports.extend(relative.iter().map(|over| over * seen));
+            lengths.extend(relative.iter().map(|over| over * h));
+        }
+        let is_each = relative.is_some();
+        if was_each != is_each {
+            // A skin is a length, or a part of each support.
+            let skin = if is_each { self.skin / seen } else { self.skin };
+            self.list = CellList::new(self.list.domain(), seen).with_skin(skin);
+            self.set_shells();
+        }
+    }
+
+    /// How far the finest particle sees, scene units.
+    fn seen(&self) -> f64 {
+        self.support.max(self.repulsion.reach())
+    }
+
+    fn update_list(
+        &mut self,
+        positions: &[[f64; D]],
+        is_target: impl Fn(usize) -> bool + Sync,
+    ) -> bool {
+        match &self.each[0][..] {
+            [] => self.list.update_some(positions, is_target),
+            supports => self.list.update_each(positions, supports, is_target),
+        }
+    }
+
     fn set_shells(&mut self) {
-        let shells = self.shape.shells::<D>(self.smoothing_length, self.reach);
-        self.list.set_shells(shells);
+        // In parts of the greater support of a pair where supports differ. A pair's repulsion reaches no farther there than
+        // that of two of the greater size.
+        let unit = if self.each[0].is_empty() {
+            1.0
+        } else {
+            1.0 / self.seen()
+        };
+        let [length, reach] = [self.smoothing_length, self.reach].map(|length| length * unit);
+        self.list.set_shells(self.shape.shells::<D>(length, reach));
     }
 
     /// The second pass, which needs every Γ.

@@ -39,8 +39,10 @@ pub mod packed;
 pub mod particles;
 pub mod problem;
 pub mod quality;
+pub mod resolution;
 pub mod run_log;
 pub mod seeding;
+pub mod sizes;
 mod slabs;
 mod state;
 
@@ -66,5 +68,7 @@ pub use packed::{Omitted, Packed, ParticleSurface, Seconds, StopReason};
 pub use particles::{Kind, Particles, UnknownKind};
 pub use problem::{Body, FrozenLayout, PackingError, Problem};
 pub use quality::{DensityQuality, Fields, Quality, ResidualQuality, SurfaceQuality};
+pub use resolution::{Resolution, Spacing, SpacingField, Uniform};
 pub use run_log::RunLog;
+pub use sizes::Sizes;
 pub use state::Damaged;

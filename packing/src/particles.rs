@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::sizes::Sizes;
+
 /// How a particle may move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
@@ -65,7 +67,7 @@ impl fmt::Display for Kind {
 
 /// Particles in the domain and the frozen ones around it. All arrays have one entry per particle, in the same order;
 /// `id` follows a particle through every reordering.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Particles<const D: usize> {
     /// A number that stays with the particle: 0, 1, 2, … in the order of seeding.
     pub id: Vec<u32>,
@@ -78,9 +80,23 @@ pub struct Particles<const D: usize> {
     /// For boundary and fixed particles the index of the body whose surface they sit on; for free ones that of the body
     /// that they were placed in, by methods that know.
     pub body: Vec<Option<u16>>,
+    /// Spacing and smoothing length of each.
+    pub sizes: Sizes,
 }
 
 impl<const D: usize> Particles<D> {
+    /// None yet, of the given size.
+    pub fn new(sizes: Sizes) -> Self {
+        Self {
+            id: Vec::new(),
+            position: Vec::new(),
+            kind: Vec::new(),
+            volume: Vec::new(),
+            body: Vec::new(),
+            sizes,
+        }
+    }
+
     /// Number of particles, frozen ones included.
     pub fn len(&self) -> usize {
         self.id.len()
@@ -91,7 +107,8 @@ impl<const D: usize> Particles<D> {
         self.id.is_empty()
     }
 
-    /// Appends a particle; its id is its place.
+    /// Appends a particle of the size that all have; its id is its index. Where sizes differ, [`Particles::sizes`] is set
+    /// when all are there.
     ///
     /// # Panics
     /// Beyond 2³² particles; [`crate::Problem::estimate`] refuses such problems first.
@@ -118,6 +135,7 @@ impl<const D: usize> Particles<D> {
             kind: order.iter().map(|&i| self.kind[i]).collect(),
             volume: order.iter().map(|&i| self.volume[i]).collect(),
             body: order.iter().map(|&i| self.body[i]).collect(),
+            sizes: self.sizes.selected(order),
         }
     }
 }

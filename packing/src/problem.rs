@@ -7,6 +7,8 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, words};
 
 use crate::lattice::{Filling, Lattice};
+use crate::resolution::Resolution;
+use crate::sizes::Sizes;
 use crate::state::Damaged;
 
 /// How deep inside the true surface the boundary particles sit, unless a body says otherwise: ∆s/2 (001 eq. 11).
@@ -49,8 +51,8 @@ pub enum FrozenLayout {
 pub struct Problem<const D: usize> {
     /// The box.
     pub domain: Domain<D>,
-    /// ∆s, scene units: the D-th root of a particle's volume.
-    pub spacing: f64,
+    /// How far particles are apart.
+    pub resolution: Resolution<D>,
     /// The bodies; a particle belongs to the first that holds it. [`Problem::placed_body`] adds one so that its images
     /// across periodic sides are seen.
     pub bodies: Vec<Body<D>>,
@@ -83,6 +85,16 @@ pub enum PackingError {
         name: &'static str,
         /// What was given.
         value: f64,
+    },
+    /// Spacings differ from place to place.
+    #[error(
+        "spacings from {least} to {greatest} were asked for; no method places particles of different sizes yet: give one spacing"
+    )]
+    Graded {
+        /// The least, scene units.
+        least: f64,
+        /// The greatest.
+        greatest: f64,
     },
     /// The spacing does not fit into the box.
     #[error(
@@ -199,11 +211,11 @@ fn little(bytes: f64) -> &'static str {
 }
 
 impl<const D: usize> Problem<D> {
-    /// An empty box to be filled at spacing ∆s, with the quintic kernel at h/∆s = 1.2.
-    pub fn new(domain: Domain<D>, spacing: f64) -> Self {
+    /// An empty box to be filled at spacing ∆s, or at those of a field, with the quintic kernel at h/∆s = 1.2.
+    pub fn new(domain: Domain<D>, resolution: impl Into<Resolution<D>>) -> Self {
         Self {
             domain,
-            spacing,
+            resolution: resolution.into(),
             bodies: Vec::new(),
             kernel: KernelKind::Quintic,
             h_over_spacing: 1.2,
@@ -236,9 +248,19 @@ impl<const D: usize> Problem<D> {
         self
     }
 
+    /// ∆s, scene units: the D-th root of a particle's volume; the least where spacings differ.
+    pub fn spacing(&self) -> f64 {
+        self.resolution.finest()
+    }
+
+    /// The sizes of particles that all have the least spacing.
+    pub fn sizes(&self) -> Sizes {
+        Sizes::uniform(self.spacing(), self.h_over_spacing)
+    }
+
     /// Smoothing length, scene units.
     pub fn smoothing_length(&self) -> f64 {
-        self.h_over_spacing * self.spacing
+        self.h_over_spacing * self.spacing()
     }
 
     /// Support radius of the kernel, scene units.
@@ -259,7 +281,8 @@ impl<const D: usize> Problem<D> {
 
     /// The lattice fitted to the box. The problem must have passed [`Problem::check`].
     pub fn filling(&self) -> Filling<D> {
-        self.chosen_lattice().fill(self.domain.bounds, self.spacing)
+        self.chosen_lattice()
+            .fill(self.domain.bounds, self.spacing())
     }
 
     /// How deep the frozen layer is, scene units: the longer of [`Problem::reach`] and [`Problem::seen_within`].
@@ -274,7 +297,7 @@ impl<const D: usize> Problem<D> {
 
     /// The skin of the neighbour lists, scene units.
     pub fn skin(&self) -> f64 {
-        SKIN_OVER_SPACING * self.spacing
+        SKIN_OVER_SPACING * self.spacing()
     }
 
     /// Whether the problem makes sense, before anything large is allocated.
@@ -283,12 +306,16 @@ impl<const D: usize> Problem<D> {
     /// The first [`PackingError`] found.
     pub fn check(&self) -> Result<(), PackingError> {
         for (name, value) in [
-            ("the spacing", self.spacing),
+            ("the spacing", self.spacing()),
             ("h_over_spacing", self.h_over_spacing),
         ] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(PackingError::NotPositive { name, value });
             }
+        }
+        if self.resolution.uniform().is_none() {
+            let [least, greatest] = self.resolution.range();
+            return Err(PackingError::Graded { least, greatest });
         }
         let size = self.domain.bounds.size();
         for &edge in &size {
@@ -300,9 +327,9 @@ impl<const D: usize> Problem<D> {
             }
         }
         let shortest = size.iter().copied().fold(f64::INFINITY, f64::min);
-        if self.spacing > shortest {
+        if self.spacing() > shortest {
             return Err(PackingError::SpacingLargerThanDomain {
-                spacing: self.spacing,
+                spacing: self.spacing(),
                 size: shortest,
             });
         }
@@ -326,17 +353,17 @@ impl<const D: usize> Problem<D> {
         for body in &self.bodies {
             let bounds = body.surface.bounds();
             let across = bounds.size().into_iter().fold(0.0, f64::max);
-            if self.spacing > across {
+            if self.spacing() > across {
                 return Err(PackingError::SpacingLargerThanBody {
                     body: body.name.clone(),
-                    spacing: self.spacing,
+                    spacing: self.spacing(),
                     size: across,
                 });
             }
             if !self
                 .domain
                 .bounds
-                .grown(1e-9 * self.spacing)
+                .grown(1e-9 * self.spacing())
                 .contains_box(&bounds)
             {
                 return Err(PackingError::OutsideDomain {
@@ -351,14 +378,14 @@ impl<const D: usize> Problem<D> {
                 * (0..D)
                     .map(|k| (0..D).filter(|&a| a != k).map(|a| size[a]).product::<f64>())
                     .sum::<f64>();
-            let room = FOLDED * (sides + bounds.volume() / self.spacing);
+            let room = FOLDED * (sides + bounds.volume() / self.spacing());
             let measure = body.surface.measure();
             if measure > room {
                 return Err(PackingError::TooFolded {
                     body: body.name.clone(),
                     measure,
                     room,
-                    spacing: self.spacing,
+                    spacing: self.spacing(),
                 });
             }
             if !(body.inset_over_spacing >= 0.0 && body.inset_over_spacing.is_finite()) {

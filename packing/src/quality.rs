@@ -9,6 +9,7 @@ use crate::closest_pair::ClosestPair;
 use crate::forces::{Forces, blocked_sum, largest};
 use crate::packed::{Packed, ParticleSurface};
 use crate::particles::Kind;
+use crate::sizes::Sizes;
 use crate::slabs::{self, Slab};
 use sphpack_pairs::Repulsion;
 
@@ -17,8 +18,8 @@ use sphpack_pairs::Repulsion;
 pub struct Fields<const D: usize> {
     /// The kernel that measured.
     pub kernel: KernelKind,
-    /// Its smoothing length, scene units.
-    pub smoothing_length: f64,
+    /// The spacings, and the smoothing length over them that measured.
+    pub sizes: Sizes,
     /// Γ_i = Σ_j V_j W_ij, the particle itself included. Dimensionless; 1 is ideal.
     pub gamma: Vec<f64>,
     /// ∇Γ_i = Σ_j V_j ∇_iW_ij, per scene unit; 0 is ideal.
@@ -104,9 +105,22 @@ impl<const D: usize> Fields<D> {
         kernel: KernelKind,
         smoothing_length: f64,
     ) -> Self {
+        let sizes = Sizes::uniform(smoothing_length, 1.0);
+        Self::measure_each(domain, positions, volumes, sizes, is_measured, kernel)
+    }
+
+    /// [`Fields::measure`] of particles that differ in size, each by its own h.
+    pub fn measure_each(
+        domain: &Domain<D>,
+        positions: &[[f64; D]],
+        volumes: &[f64],
+        sizes: Sizes,
+        is_measured: impl Fn(usize) -> bool + Sync,
+        kernel: KernelKind,
+    ) -> Self {
         let fields = Self {
             kernel,
-            smoothing_length,
+            sizes,
             gamma: vec![0.0; positions.len()],
             gradient: vec![[0.0; D]; positions.len()],
         };
@@ -122,14 +136,18 @@ impl<const D: usize> Fields<D> {
         is_measured: impl Fn(usize) -> bool + Sync,
         most: usize,
     ) -> Self {
-        let (kernel, h) = (self.kernel, self.smoothing_length);
-        let reach = kernel.support_over_h() * h;
+        let (kernel, relative) = (self.kernel, self.sizes.relative());
+        let h = self.sizes.smallest_smoothing_length();
+        let largest = relative.map_or(1.0, |over| over.iter().copied().fold(0.0, f64::max));
+        let reach = kernel.support_over_h() * h * largest;
         for Slab { order, is_inside } in slabs::slabs(domain, positions, reach, most) {
             let positions: Vec<[f64; D]> = order.iter().map(|&i| positions[i]).collect();
             let volumes: Vec<f64> = order.iter().map(|&i| volumes[i]).collect();
             let mut forces = Forces::new(domain, kernel, h, 0.0, Repulsion::none());
             let is_target = |k: usize| is_inside[k] && is_measured(order[k]);
-            forces.evaluate_plain(&positions, &volumes, is_target);
+            let relative: Option<Vec<f64>> =
+                relative.map(|over| order.iter().map(|&i| over[i]).collect());
+            forces.evaluate_each(&positions, &volumes, relative.as_deref(), is_target);
             for (k, &i) in order.iter().enumerate() {
                 if is_target(k) {
                     self.gamma[i] = forces.gamma(k);
@@ -139,10 +157,9 @@ impl<const D: usize> Fields<D> {
         }
         self
     }
-
-    /// h |∇Γ_i|, dimensionless.
+    /// h_i |∇Γ_i|, dimensionless.
     pub fn residual(&self, i: usize) -> f64 {
-        self.smoothing_length * point::norm(self.gradient[i])
+        self.sizes.smoothing_length(i) * point::norm(self.gradient[i])
     }
 }
 
@@ -229,13 +246,16 @@ impl<const D: usize> Packed<D> {
     /// Γ and ∇Γ of all but the frozen particles, by the kernel and h/∆s given (which need not be those that packed).
     /// Frozen particles support a kernel as far as the packing's own reached.
     pub fn fields(&self, kernel: KernelKind, h_over_spacing: f64) -> Fields<D> {
-        Fields::measure(
+        Fields::measure_each(
             &self.domain,
             &self.particles.position,
             &self.particles.volume,
+            self.particles
+                .sizes
+                .clone()
+                .with_h_over_spacing(h_over_spacing),
             |i| self.particles.kind[i] != Kind::Frozen,
             kernel,
-            h_over_spacing * self.spacing,
         )
     }
 
@@ -261,9 +281,10 @@ impl<const D: usize> Packed<D> {
             let i = boundary[b];
             let surface = &self.surfaces[usize::from(particles.body[i].unwrap_or(0))].surface;
             let normal = surface.closest(particles.position[i]).normal;
-            fields.smoothing_length * point::norm(point::reject(fields.gradient[i], normal))
+            let h = fields.sizes.smoothing_length(i);
+            h * point::norm(point::reject(fields.gradient[i], normal))
         });
-        let h_over_spacing = fields.smoothing_length / self.spacing;
+        let h_over_spacing = fields.sizes.smallest_smoothing_length() / self.spacing;
         let pair = ClosestPair::of(
             &self.domain,
             &particles.position,
@@ -358,7 +379,7 @@ mod tests {
             let of = |most: usize| {
                 let blank = Fields {
                     kernel: KernelKind::Quintic,
-                    smoothing_length: 1.2,
+                    sizes: Sizes::uniform(1.0, 1.2),
                     gamma: vec![0.0; positions.len()],
                     gradient: vec![[0.0; 3]; positions.len()],
                 };

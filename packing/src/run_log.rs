@@ -250,7 +250,7 @@ impl<'a> RunLog<'a> {
         Packed {
             particles,
             domain: problem.domain,
-            spacing: problem.spacing,
+            spacing: problem.spacing(),
             lattice: problem.chosen_lattice(),
             frozen_lattice,
             kernel: problem.kernel,

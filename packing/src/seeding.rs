@@ -96,7 +96,7 @@ pub fn seed<const D: usize>(problem: &Problem<D>) -> Result<Seeds<D>, PackingErr
     problem.check()?;
     let filling = in_phase(problem, problem.filling());
     let volume = filling.volume_per_site();
-    let mut particles = Particles::default();
+    let mut particles = Particles::new(problem.sizes());
     for site in filling.sites() {
         particles.push(site, Kind::Free, volume, None);
     }
@@ -119,7 +119,7 @@ fn frozen_lattice<const D: usize>(problem: &Problem<D>, filling: Filling<D>) -> 
             } else {
                 Lattice::SimpleCubic
             };
-            ring.fill(problem.domain.bounds, problem.spacing)
+            ring.fill(problem.domain.bounds, problem.spacing())
         }
     }
 }
@@ -138,7 +138,7 @@ pub fn particle_surfaces<const D: usize>(
             let surface = if body.inset_over_spacing == 0.0 {
                 body.surface.clone()
             } else {
-                let depth = body.inset_over_spacing * problem.spacing;
+                let depth = body.inset_over_spacing * problem.spacing();
                 body.surface
                     .inset(depth)
                     .map_err(|source| PackingError::Surface {
@@ -146,7 +146,7 @@ pub fn particle_surfaces<const D: usize>(
                         source,
                     })?
             };
-            let target = surface.measure() / problem.spacing.powi(D as i32 - 1);
+            let target = surface.measure() / problem.spacing().powi(D as i32 - 1);
             Ok(ParticleSurface {
                 surface,
                 target_count: target.round().max(1.0) as usize,

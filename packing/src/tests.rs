@@ -29,7 +29,7 @@ fn shaken<const D: usize>(shake: f64, seed_value: u64) -> (Problem<D>, Particles
         }
         particles.kind[i] = [Kind::Free, Kind::Boundary, Kind::Fixed][i % 3];
         for k in 0..D {
-            particles.position[i][k] += 2.0 * shake * problem.spacing * (random.unit() - 0.5);
+            particles.position[i][k] += 2.0 * shake * problem.spacing() * (random.unit() - 0.5);
         }
     }
     (problem, particles)
@@ -44,7 +44,7 @@ fn check_energy<const D: usize>(
     problem.kernel = kernel;
     let mut forces = Forces::of(
         &problem,
-        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+        Repulsion::new(problem.spacing(), Repulsion::STRENGTH),
     );
     forces.evaluate(&particles);
     let moving = (seed as usize * 7) % particles.count(Kind::Free);
@@ -53,10 +53,10 @@ fn check_energy<const D: usize>(
         .nth(moving)
         .expect("a free particle");
     let acceleration = forces.acceleration(i);
-    let scale = 1.0 / problem.spacing;
+    let scale = 1.0 / problem.spacing();
     for k in 0..D {
         // The potential has kinks in its second derivative only: a central difference is good to O(step).
-        let step = 1e-5 * problem.spacing;
+        let step = 1e-5 * problem.spacing();
         let mut energy_at = |shift: f64| {
             let mut moved = particles.clone();
             moved.position[i][k] += shift;
@@ -96,7 +96,7 @@ proptest! {
         for i in 0..particles.len() {
             total = point::add(total, forces.acceleration(i));
         }
-        prop_assert!(point::norm(total) < 1e-9 / problem.spacing * particles.len() as f64);
+        prop_assert!(point::norm(total) < 1e-9 / problem.spacing() * particles.len() as f64);
     }
 }
 
@@ -316,11 +316,11 @@ fn senseless_problems_are_refused() {
         );
     };
     refused(
-        |p| p.spacing = 0.0,
+        |p| p.resolution = (0.0).into(),
         |e| matches!(e, PackingError::NotPositive { .. }),
     );
     refused(
-        |p| p.spacing = f64::NAN,
+        |p| p.resolution = (f64::NAN).into(),
         |e| matches!(e, PackingError::NotPositive { .. }),
     );
     refused(
@@ -328,11 +328,11 @@ fn senseless_problems_are_refused() {
         |e| matches!(e, PackingError::NotPositive { .. }),
     );
     refused(
-        |p| p.spacing = 1.5,
+        |p| p.resolution = (1.5).into(),
         |e| matches!(e, PackingError::SpacingLargerThanBody { .. }),
     );
     refused(
-        |p| p.spacing = 5.0,
+        |p| p.resolution = (5.0).into(),
         |e| matches!(e, PackingError::SpacingLargerThanDomain { .. }),
     );
     refused(
@@ -345,7 +345,7 @@ fn senseless_problems_are_refused() {
     );
     refused(
         |p| {
-            p.spacing = 0.4;
+            p.resolution = (0.4).into();
             p.domain = p.domain.with_periodic([true; 2]);
         },
         |e| matches!(e, PackingError::PeriodTooShort { .. }),

@@ -50,6 +50,8 @@ pub struct Group<'a, S: Simd, const D: usize> {
     pub are_targets: bool,
     /// Whether they are in the list's first shell: what acts over short distances has no others.
     pub is_near: bool,
+    /// h of the targets.
+    pub(crate) size: f64x8<S>,
     pub(crate) slots: Slots<'a>,
     pub(crate) gathered: &'a Gathered,
 }
@@ -93,6 +95,21 @@ impl Slots<'_> {
 }
 
 impl<S: Simd, const D: usize> Group<'_, S, D> {
+    /// `size` (in the sum's unit) over the mean h of target and source; `None` where all have one h.
+    #[inline(always)]
+    pub fn over_mean(&self, size: f64) -> Option<[f64x8<S>; GROUP]> {
+        let sizes = &self.gathered.sizes[..];
+        if sizes.is_empty() {
+            return None;
+        }
+        let mut over = self.slots.load(self.simd, |slot| sizes[slot][0]);
+        let twice = f64x8::splat(self.simd, 2.0 * size);
+        for j in 0..GROUP {
+            over[j] = twice / (self.size + over[j]);
+        }
+        Some(over)
+    }
+
     /// The sources' field of this number ([`crate::Fields::with_more`]).
     #[inline(always)]
     pub fn field(&self, number: usize) -> [f64x8<S>; GROUP] {

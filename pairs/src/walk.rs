@@ -233,6 +233,7 @@ impl<'a, S: Simd, T: Term, const D: usize> Walk<'a, S, T, D> {
             mean,
             are_targets,
             is_near,
+            size: self.size,
             slots,
             gathered,
         };

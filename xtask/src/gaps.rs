@@ -179,7 +179,7 @@ fn problem(airfoil: &Airfoil, bodies: &[Outline]) -> Problem<2> {
 
 /// The solids of one packing in the fluid of another.
 fn joined(solids: &Packed<2>, fluid: &Packed<2>) -> Particles<2> {
-    let mut all = Particles::default();
+    let mut all = Particles::new(fluid.particles.sizes.clone());
     for (of, wants_solids) in [(&solids.particles, true), (&fluid.particles, false)] {
         for i in (0..of.len()).filter(|&i| of.body[i].is_some() == wants_solids) {
             all.push(of.position[i], of.kind[i], of.volume[i], of.body[i]);

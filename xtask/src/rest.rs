@@ -6,7 +6,7 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::random::Congruential;
 use sphpack_neighbors::{Domain, point};
 use sphpack_packing::forces::Forces;
-use sphpack_packing::{Kind, Lattice, Particles};
+use sphpack_packing::{Kind, Lattice, Particles, Sizes};
 use sphpack_pairs::Repulsion;
 
 const HEAD: &str = "\
@@ -58,7 +58,7 @@ fn relaxed(kernel: KernelKind, h: f64, lattice: Lattice, shake: f64) -> [f64; 4]
     let gamma = Lattice::auto(2, kernel, h).gamma(kernel, h);
     let mut random = Congruential::new(12_345);
     let mut shaken = |x: f64| x + shake * (2.0 * random.unit() - 1.0);
-    let mut particles = Particles::default();
+    let mut particles = Particles::new(Sizes::uniform(1.0, h));
     for site in filling.sites() {
         let place = domain.wrap(site.map(&mut shaken));
         particles.push(place, Kind::Free, filling.volume_per_site(), None);

@@ -19,7 +19,7 @@ const SAME: f64 = 1e-9;
 /// O(n) for n particles, and the neighbours of some [`SOME`].
 pub(super) fn differs<const D: usize>(solution: &Solution<D>) -> Option<(usize, String)> {
     let fields = &solution.fields;
-    (fields.kernel).with(fields.smoothing_length, Sums { solution })
+    (fields.kernel).with(fields.sizes.smallest_smoothing_length(), Sums { solution })
 }
 
 struct Sums<'a, const D: usize> {
@@ -53,7 +53,7 @@ impl<const D: usize> WithKernel<D> for Sums<'_, D> {
             }
             let far = place.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
             let slack = SAME * (1.0 + 1e-3 * far / packed.spacing);
-            let h = fields.smoothing_length;
+            let h = fields.sizes.smallest_smoothing_length();
             let [own, anew] = [fields.gradient[i], gradient].map(|g| h * point::norm(g));
             let words = |what: &str, own: f64, anew: f64| {
                 let id = particles.id[i];

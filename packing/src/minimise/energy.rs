@@ -24,6 +24,9 @@ use sphpack_pairs::Repulsion;
 ///
 /// It is evaluated when it is asked, once for every place: what changes it, or moves particles, only marks it.
 ///
+/// Where particles differ in size, the coordinates of each are divided by its size over the finest, and forces multiplied:
+/// a step, a force times h and what a minimiser learns then mean the same for all.
+///
 /// E is per ∆s^D and p_b; the force on a particle of that volume is its acceleration for p_b = 1, per scene unit.
 /// Forces are −∇E along the surfaces for any volumes, so long as these do not change.
 #[derive(Debug)]
@@ -53,12 +56,12 @@ pub struct Energy<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Energy<'a, D> {
-    /// The energy around the present places; boundary particles are put onto their surfaces first. `spacing` is ∆s; surfaces are looked for within `reach` (scene units).
+    /// The energy around the present places; boundary particles are put onto their surfaces first. Surfaces are looked for
+    /// within `reach` (scene units).
     pub fn new(
         particles: &'a mut Particles<D>,
         surfaces: &'a [ParticleSurface<D>],
         forces: Forces<D>,
-        spacing: f64,
         reach: f64,
     ) -> Self {
         let mobile: Vec<u32> = (0..particles.len())
@@ -71,6 +74,7 @@ impl<'a, const D: usize> Energy<'a, D> {
         let mut energy = Self {
             smoothing_length: forces.smoothing_length(),
             force: vec![[0.0; D]; mobile.len()],
+            spacing: particles.sizes.finest(),
             particles,
             surfaces,
             bodies: &[],
@@ -80,7 +84,6 @@ impl<'a, const D: usize> Energy<'a, D> {
             on_surface,
             sides: Sides::default(),
             walls: Walls::new(domain),
-            spacing,
             reach,
             mobile,
             is_surface_held: false,
@@ -94,7 +97,7 @@ impl<'a, const D: usize> Energy<'a, D> {
         energy
     }
 
-    /// ∆s, scene units.
+    /// ∆s, or the least, scene units.
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
@@ -209,25 +212,34 @@ impl<'a, const D: usize> Energy<'a, D> {
             self.surfaces,
             bodies,
             self.forces.list().domain(),
-            self.spacing,
         );
         self.projection_seconds += start.elapsed().as_secs_f64();
     }
 
-    /// Writes the places of the mobile particles.
+    /// Writes the coordinates of the mobile particles.
     pub fn places(&self, out: &mut Vec<[f64; D]>) {
         out.clear();
-        out.extend(
-            self.mobile
-                .iter()
-                .map(|&i| self.particles.position[i as usize]),
-        );
+        let position = &self.particles.position;
+        match self.particles.sizes.relative() {
+            None => out.extend(self.mobile.iter().map(|&i| position[i as usize])),
+            Some(over) => out.extend(self.mobile.iter().map(|&i| {
+                let i = i as usize;
+                position[i].map(|x| x / over[i])
+            })),
+        }
     }
 
     /// Puts the mobile particles at `from + step · direction`, boundary ones onto their surface from there.
     pub fn move_to(&mut self, from: &[[f64; D]], step: f64, direction: &[[f64; D]]) {
         for ((&i, &x), &d) in self.mobile.iter().zip(from).zip(direction) {
             self.particles.position[i as usize] = point::add_scaled(x, step, d);
+        }
+        if let Some(over) = self.particles.sizes.relative() {
+            for &i in &self.mobile {
+                let i = i as usize;
+                let x = &mut self.particles.position[i];
+                *x = point::scale(*x, over[i]);
+            }
         }
         self.project();
         self.is_stale = true;
@@ -323,6 +335,11 @@ impl<'a, const D: usize> Energy<'a, D> {
                     on_surface.tangential(i, force)
                 };
             });
+        if let Some(over) = self.particles.sizes.relative() {
+            for (force, &i) in self.force.iter_mut().zip(&self.mobile) {
+                *force = point::scale(*force, over[i as usize]);
+            }
+        }
         // What holds a particle on its floor takes the force towards the surface.
         for (i, away) in self.sides.held() {
             if let Ok(place) = self.mobile.binary_search(&(i as u32))

@@ -105,7 +105,6 @@ impl<const D: usize> Sides<D> {
         surfaces: &[ParticleSurface<D>],
         bodies: &[Body<D>],
         domain: &Domain<D>,
-        spacing: f64,
     ) -> Self {
         let of_kind = |wanted: fn(Kind) -> bool| -> Vec<u32> {
             (0..particles.len() as u32)
@@ -120,9 +119,11 @@ impl<const D: usize> Sides<D> {
         let Ok(tree) = KdTree::new(&places) else {
             return Self::default();
         };
-        let sight = SIGHT * spacing;
+        let sizes = &particles.sizes;
         let watched = |&i: &u32| {
             let p = particles.position[i as usize];
+            let spacing = sizes.spacing(i as usize);
+            let sight = SIGHT * spacing;
             let mut around: Vec<u16> = (domain.images(p, sight))
                 .flat_map(|image| tree.within(image, sight))
                 .filter_map(|found| particles.body[on_surface[found.index] as usize])

@@ -35,7 +35,7 @@ fn shaken<const D: usize>(
         }
         particles.kind[i] = [Kind::Free, Kind::Boundary, Kind::Fixed][i % 3];
         for k in 0..D {
-            particles.position[i][k] += 2.0 * shake * problem.spacing * either_way(&mut random);
+            particles.position[i][k] += 2.0 * shake * problem.spacing() * either_way(&mut random);
         }
         if particles.kind[i] == Kind::Boundary {
             // Off the sides' ends, where a step along the surface would turn a corner.
@@ -82,14 +82,14 @@ fn with_energy<const D: usize, R>(
     let (problem, mut particles, surfaces) = shaken::<D>(shake, state);
     let mut forces = Forces::of(
         &problem,
-        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+        Repulsion::new(problem.spacing(), Repulsion::STRENGTH),
     );
     // Every other time.
     forces.levelling = Levelling::new(10.0 * (state % 2) as f64, problem.perfect_gamma());
     let added = state
         .is_multiple_of(3)
         .then(|| one_side(&problem, particles.len(), state));
-    let mut energy = Energy::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
+    let mut energy = Energy::new(&mut particles, &surfaces, forces, 2.0);
     if let Some(added) = added {
         energy.add(added);
         energy.penalise(GradientPenalty::of(vec![3, 8, 21], 50.0));
@@ -182,13 +182,13 @@ fn the_energy_goes_around_a_periodic_box() {
     }
     let forces = Forces::of(
         &problem,
-        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+        Repulsion::new(problem.spacing(), Repulsion::STRENGTH),
     );
-    let mut energy = Energy::new(&mut particles, &[], forces, problem.spacing, 1.0);
+    let mut energy = Energy::new(&mut particles, &[], forces, 1.0);
     let (mut place, force) = (Vec::new(), energy.force().to_vec());
     energy.places(&mut place);
     let slope = vectors::dot(&force, &force);
-    let step = 1e-6 * problem.spacing / slope.sqrt();
+    let step = 1e-6 * problem.spacing() / slope.sqrt();
     energy.move_to(&place, step, &force);
     let up = energy.value();
     energy.move_to(&place, -step, &force);
@@ -239,12 +239,12 @@ fn with_the_left_levelled<R>(
     let (problem, mut particles, surfaces) = shaken::<2>(0.1, 8);
     let mut forces = Forces::of(
         &problem,
-        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+        Repulsion::new(problem.spacing(), Repulsion::STRENGTH),
     );
     let is_left: Vec<bool> = particles.position.iter().map(|p| p[0] < 0.4).collect();
     forces.levelled = is_left.clone();
     forces.levelling = Levelling::new(stiffness, 1.0);
-    let mut energy = Energy::new(&mut particles, &surfaces, forces, problem.spacing, 2.0);
+    let mut energy = Energy::new(&mut particles, &surfaces, forces, 2.0);
     work(&mut energy, &is_left)
 }
 
@@ -325,7 +325,7 @@ fn no_particle_slips_through_a_surface_that_is_watched() {
         let mut particles = seed(&problem).expect("a sound problem").particles;
         for i in 0..particles.len() {
             let hit = surface.closest(particles.position[i]);
-            if particles.kind[i] == Kind::Free && hit.distance.abs() < 0.6 * problem.spacing {
+            if particles.kind[i] == Kind::Free && hit.distance.abs() < 0.6 * problem.spacing() {
                 particles.position[i] = hit.point;
                 particles.kind[i] = Kind::Boundary;
                 particles.body[i] = Some(0);
@@ -334,13 +334,13 @@ fn no_particle_slips_through_a_surface_that_is_watched() {
             }
         }
         let before = particles.position.clone();
-        let forces = Forces::of(&problem, Repulsion::new(problem.spacing, 0.001));
-        let mut energy = Energy::new(&mut particles, &surfaces, forces, problem.spacing, 1.0);
+        let forces = Forces::of(&problem, Repulsion::new(problem.spacing(), 0.001));
+        let mut energy = Energy::new(&mut particles, &surfaces, forces, 1.0);
         if is_watched {
             energy.keep_sides(&problem.bodies);
         }
         energy.hold_surface();
-        energy.set_repulsion(Repulsion::new(problem.spacing, 0.001));
+        energy.set_repulsion(Repulsion::new(problem.spacing(), 0.001));
         let mut lbfgs = Lbfgs::default();
         for _ in 0..200 {
             lbfgs.step(&mut energy);
@@ -362,10 +362,10 @@ fn a_perfect_lattice_stays() {
     let before = particles.position.clone();
     let mut forces = Forces::of(
         &problem,
-        Repulsion::new(problem.spacing, Repulsion::STRENGTH),
+        Repulsion::new(problem.spacing(), Repulsion::STRENGTH),
     );
     forces.levelling = Levelling::new(10.0, problem.perfect_gamma());
-    let mut energy = Energy::new(&mut particles, &[], forces, problem.spacing, 1.0);
+    let mut energy = Energy::new(&mut particles, &[], forces, 1.0);
     assert!(energy.residual() < 1e-10);
     for kind in MinimiserKind::ALL {
         kind.build::<2>().step(&mut energy);

@@ -15,6 +15,8 @@ pub struct Repulsion {
     c: f64,
     reach: f64,
     core: f64,
+    /// The smoothing length of the particles that it is given for; of no meaning where all have one.
+    size: f64,
     loops: Coefficients,
 }
 
@@ -53,7 +55,18 @@ impl Repulsion {
             c,
             reach,
             core,
+            size: 1.0,
             loops: Coefficients::of(parameters, 1.0),
+        }
+    }
+
+    /// The same, given for particles of this smoothing length (scene units). In sums over particles of many sizes its
+    /// lengths scale with the mean h of a pair, and the potential at a distance in these is the same for all.
+    #[must_use]
+    pub fn at_size(self, smoothing_length: f64) -> Self {
+        Self {
+            size: smoothing_length,
+            ..self
         }
     }
 
@@ -145,6 +158,7 @@ impl Term for Repulsion {
 
     fn in_unit(&self, unit: f64) -> Self {
         Self {
+            size: self.size * unit,
             loops: Coefficients::of(self.parameters(), unit),
             ..*self
         }
@@ -171,18 +185,28 @@ impl Term for Repulsion {
         let constant = |c: f64| f64x8::splat(simd, c);
         let c = &self.loops;
         let zero = constant(0.0);
+        // Where sizes differ: by how much the pair is smaller than what the coefficients are for.
+        let smaller = group.over_mean(self.size);
         for j in 0..GROUP {
-            let square = group.square[j];
+            let mut square = group.square[j];
+            let mut inverse = group.inverse.0[j];
+            if let Some(smaller) = smaller {
+                square = square * smaller[j] * smaller[j];
+                inverse = inverse / smaller[j];
+            }
             let repelled = square.simd_lt(constant(c.reach_squared)) & square.simd_gt(zero);
             if repelled.any_true() {
                 // 1/r and r, no nearer than the core.
-                let i = group.inverse.0[j].min(constant(c.inverse_core));
-                let inside = (constant(c.core) - square * group.inverse.0[j]).max(zero);
+                let i = inverse.min(constant(c.inverse_core));
+                let inside = (constant(c.core) - square * inverse).max(zero);
                 let i2 = i * i;
                 let force =
                     constant(c.strength) * i2 * i * (constant(3.0 * c.c) * i - constant(2.0));
                 let force = repelled.select(force, zero);
-                let push = force * group.inverse.0[j];
+                let mut push = force * group.inverse.0[j];
+                if let Some(smaller) = smaller {
+                    push = push * smaller[j];
+                }
                 for k in 0..D {
                     sums.acceleration[k] = push.mul_add(group.apart[j][k], sums.acceleration[k]);
                 }

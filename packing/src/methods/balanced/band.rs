@@ -74,7 +74,7 @@ impl<const D: usize> Part<D> {
         // Whoever is seen by what moves or is on the rim must be there, however far off its distance is: it may be too
         // great by the whole error where another part of the surface is nearer than that of the cube's middle, too
         // small only by what the way across the gradient adds.
-        let error = Depths::error::<D>(problem.spacing);
+        let error = Depths::error::<D>(problem.spacing());
         let seen = width + 2.0 * sight + error + (0.5 * error).powi(2) / (2.0 * width);
         let order: Vec<usize> = (0..particles.len())
             .filter(|&i| distance[i] <= seen)
@@ -128,7 +128,7 @@ impl<const D: usize> Part<D> {
 fn distances<const D: usize>(problem: &Problem<D>, particles: &Particles<D>) -> Vec<f64> {
     let around = problem.domain.bounds.grown(problem.frozen_depth());
     let places = &particles.position;
-    let depths = Depths::of(&problem.bodies, around, problem.spacing, 0.0, places);
+    let depths = Depths::of(&problem.bodies, around, problem.spacing(), 0.0, places);
     (0..particles.len())
         .map(|i| {
             if particles.kind[i].is_on_surface() {

@@ -91,7 +91,7 @@ impl Balanced {
         problem.check()?;
         for body in &problem.bodies {
             if inset(problem, body)?.is_none() && !is_usual(body) {
-                let depth = body.inset_over_spacing * problem.spacing;
+                let depth = body.inset_over_spacing * problem.spacing();
                 return Err(PackingError::Surface {
                     body: body.name.clone(),
                     source: GeometryError::Vanished { depth },
@@ -119,7 +119,7 @@ impl Balanced {
         let parts = Parts::of(whole);
         let problem = &parts.problem;
         let (mut surfaces, mut samples, excess) = sample(problem)?;
-        let clashes = clashes::resolve(&mut samples, problem.spacing);
+        let clashes = clashes::resolve(&mut samples, problem.spacing());
         for (surface, points) in surfaces.iter_mut().zip(&samples) {
             surface.target_count = points.len();
         }
@@ -138,8 +138,8 @@ impl Balanced {
 
         log.enter(Stage::Settling);
         let perfect_gamma = problem.perfect_gamma();
-        let stages = settling.schedule(problem.spacing, perfect_gamma);
-        let mut forces = Forces::of(problem, settling.early_repulsion(problem.spacing));
+        let stages = settling.schedule(problem.spacing(), perfect_gamma);
+        let mut forces = Forces::of(problem, settling.early_repulsion(problem.spacing()));
         let mut stop_reason = StopReason::Converged;
         let mut begin = Round {
             number: 0,
@@ -159,13 +159,7 @@ impl Balanced {
             log.set_aside(0, &[&begin]);
             let mut part = Part::of(problem, &particles, width);
             forces.targets_changed();
-            let mut energy = Energy::new(
-                &mut part.particles,
-                &surfaces,
-                forces,
-                problem.spacing,
-                problem.support(),
-            );
+            let mut energy = Energy::new(&mut part.particles, &surfaces, forces, problem.support());
             energy.keep_sides(&problem.bodies);
             stop_reason = settling.run(&mut energy, log, &stages[round.min(1)..])?;
             forces = energy.into_forces();
@@ -210,8 +204,8 @@ fn place<const D: usize>(
     let depths = Depths::of(
         &problem.bodies,
         problem.domain.bounds,
-        problem.spacing,
-        2.0 * problem.spacing,
+        problem.spacing(),
+        2.0 * problem.spacing(),
         &sites,
     );
     let least = 0.5 * volume;
@@ -249,7 +243,7 @@ fn place<const D: usize>(
         shares = shares::shares(&held, &room, &most, all, volume);
         chosen = choose(&shares.regions);
     }
-    let mut particles = Particles::default();
+    let mut particles = Particles::new(problem.sizes());
     let kept =
         (sites.iter().zip(chosen.region_of)).filter_map(|(&site, region)| Some((site, region?)));
     for (site, region) in kept.chain(chosen.more) {
@@ -279,7 +273,7 @@ fn rooms<const D: usize>(
     least: f64,
 ) -> (Vec<f64>, Vec<Omitted<D>>) {
     let bodies = &parts.problem.bodies;
-    let inside = shares::directly_inside(bodies, parts.problem.spacing);
+    let inside = shares::directly_inside(bodies, parts.problem.spacing());
     let mut room = parts.rooms();
     let mut omitted = Vec::new();
     for (region, within) in inside.iter().enumerate() {
@@ -319,7 +313,11 @@ fn reaches<const D: usize>(
     let mut beyond = vec![0.0; bodies.len() + pockets.volume.len()];
     for point in points {
         let hit = bodies[part].surface.closest(point.point);
-        let place = point::add_scaled(hit.point, BEYOND_OVER_SPACING * problem.spacing, hit.normal);
+        let place = point::add_scaled(
+            hit.point,
+            BEYOND_OVER_SPACING * problem.spacing(),
+            hit.normal,
+        );
         let there = (0..bodies.len())
             .find(|&b| b != part && bodies[b].surface.inside(place))
             .unwrap_or_else(|| bodies.len() + pockets.at(problem, place).unwrap_or(0));
@@ -340,7 +338,7 @@ fn inset<const D: usize>(
     problem: &Problem<D>,
     body: &Body<D>,
 ) -> Result<Option<Arc<dyn Surface<D>>>, PackingError> {
-    let depth = body.inset_over_spacing * problem.spacing;
+    let depth = body.inset_over_spacing * problem.spacing();
     if depth == 0.0 {
         return Ok(Some(body.surface.clone()));
     }
@@ -367,14 +365,14 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
             body: body.name.clone(),
             source,
         };
-        let depth = body.inset_over_spacing * problem.spacing;
+        let depth = body.inset_over_spacing * problem.spacing();
         let is_usual = is_usual(body);
         let inset = inset(problem, body)?;
         let found = match &inset {
             // A body that fills the box has no surface in it.
             Some(surface) if !is_usual && surface.measure() <= 0.0 => Ok(SurfaceSamples::default()),
             Some(surface) if !is_usual => {
-                let count = surface.measure() / problem.spacing.powi(D as i32 - 1);
+                let count = surface.measure() / problem.spacing().powi(D as i32 - 1);
                 surface
                     .sample(count.round().max(1.0) as usize)
                     .map(|on_surface| SurfaceSamples {
@@ -385,7 +383,7 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
             _ => sample_thin(
                 body.surface.as_ref(),
                 inset.as_deref(),
-                problem.spacing,
+                problem.spacing(),
                 depth,
                 body.thin,
             ),

@@ -61,7 +61,7 @@ impl<const D: usize> Parts<D> {
     pub(crate) fn rooms(&self) -> Vec<f64> {
         let bodies = &self.problem.bodies;
         let volume = |part: usize| bodies[part].surface.volume();
-        let inside = directly_inside(bodies, self.problem.spacing);
+        let inside = directly_inside(bodies, self.problem.spacing());
         (inside.into_iter().enumerate())
             .map(|(region, within)| {
                 let whole = if region < bodies.len() {

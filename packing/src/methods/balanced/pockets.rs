@@ -139,7 +139,7 @@ impl<const D: usize> Fluid<D> {
         let bounds = problem.domain.bounds;
         let size = bounds.size();
         let count: [usize; D] = std::array::from_fn(|k| {
-            (size[k] / (COARSEST * problem.spacing)).ceil().max(1.0) as usize
+            (size[k] / (COARSEST * problem.spacing())).ceil().max(1.0) as usize
         });
         let edge: [f64; D] = std::array::from_fn(|k| size[k] / count[k] as f64);
         let all: Vec<u16> = (0..problem.bodies.len() as u16).collect();
@@ -184,7 +184,7 @@ impl<const D: usize> Fluid<D> {
             1.0
         } else if distance <= -radius {
             0.0
-        } else if width * FINEST <= 1.001 * problem.spacing {
+        } else if width * FINEST <= 1.001 * problem.spacing() {
             (0.5 + distance / width).clamp(0.0, 1.0)
         } else {
             let listed: Vec<u16> = seen.into_iter().map(|(body, _)| body).collect();
@@ -213,7 +213,7 @@ fn connected<const D: usize>(
     place: &[[f64; D]],
     distance: &[f64],
 ) -> Vec<u32> {
-    let link = LINK_OVER_SPACING * problem.spacing;
+    let link = LINK_OVER_SPACING * problem.spacing();
     let links: Vec<Vec<u32>> = (0..place.len())
         .into_par_iter()
         .with_min_len(256)
@@ -265,7 +265,7 @@ fn root(first: &mut [u32], mut i: u32) -> u32 {
 
 /// How far a place is from the nearest body, at most [`LINK_OVER_SPACING`]; negative inside.
 fn distance<const D: usize>(problem: &Problem<D>, place: [f64; D]) -> f64 {
-    let reach = LINK_OVER_SPACING * problem.spacing;
+    let reach = LINK_OVER_SPACING * problem.spacing();
     problem.bodies.iter().fold(reach, |least, body| {
         let hit = body.surface.closest_within(place, least.abs());
         hit.map_or(least, |hit| least.min(hit.distance))
@@ -282,7 +282,7 @@ fn is_open<const D: usize>(
 ) -> bool {
     let way = point::sub(to, from);
     let length = point::norm(way);
-    let least = 0.5 * PASSAGE_OVER_SPACING * problem.spacing;
+    let least = 0.5 * PASSAGE_OVER_SPACING * problem.spacing();
     let mut gone = ends[0].max(least);
     while gone < length - ends[1] {
         let room = distance(problem, point::add_scaled(from, gone / length, way));

@@ -49,7 +49,7 @@ pub(super) fn choose<const D: usize>(
     regions: &[Share],
 ) -> Chosen<D> {
     let parts = problem.bodies.len();
-    let beyond = BEYOND_OVER_SPACING * problem.spacing;
+    let beyond = BEYOND_OVER_SPACING * problem.spacing();
     let mut of_region: Vec<Vec<(u32, f64)>> = vec![Vec::new(); regions.len()];
     for i in 0..sites.len() {
         for (part, phi) in depths.around(i) {
@@ -70,7 +70,7 @@ pub(super) fn choose<const D: usize>(
         let free = (own.iter())
             .filter(|(i, _)| region_of[*i as usize].is_none())
             .map(|&(i, depth)| (i as usize, depth));
-        let mut kept = deepest(free, share.sites, problem.spacing, problem.seed);
+        let mut kept = deepest(free, share.sites, problem.spacing(), problem.seed);
         kept.retain(|&i| is_clear(problem, depths, region, i));
         if kept.len() < share.sites {
             lacking.push((region as u32, share.sites - kept.len()));
@@ -91,7 +91,7 @@ pub(super) fn choose<const D: usize>(
             let least = if none {
                 0.0
             } else {
-                ROOM_OVER_SPACING * problem.spacing
+                ROOM_OVER_SPACING * problem.spacing()
             };
             let found = roomiest(&places, &taken, lack, least);
             count[region as usize] -= lack - found.len();
@@ -115,10 +115,10 @@ fn is_clear<const D: usize>(
     region: usize,
     site: usize,
 ) -> bool {
-    let least = CLEAR_OVER_SPACING * problem.spacing;
-    let usual = DEFAULT_INSET_OVER_SPACING * problem.spacing;
+    let least = CLEAR_OVER_SPACING * problem.spacing();
+    let usual = DEFAULT_INSET_OVER_SPACING * problem.spacing();
     depths.around(site).all(|(part, phi)| {
-        let inset = problem.bodies[part].inset_over_spacing * problem.spacing;
+        let inset = problem.bodies[part].inset_over_spacing * problem.spacing();
         match region.cmp(&part) {
             // Outside of every part that comes before, of all of them in the fluid.
             Ordering::Greater => phi + inset >= least,
@@ -139,11 +139,11 @@ fn between<const D: usize>(
     on_surface: &[Closest<D>],
 ) -> Vec<[f64; D]> {
     let parts = problem.bodies.len();
-    let step = problem.spacing / f64::from(PLACES[D.saturating_sub(2).min(1)]);
+    let step = problem.spacing() / f64::from(PLACES[D.saturating_sub(2).min(1)]);
     let bounds = problem.domain.bounds;
-    let reach = (BESIDE_OVER_SPACING * problem.spacing / step).ceil() as i64;
+    let reach = (BESIDE_OVER_SPACING * problem.spacing() / step).ceil() as i64;
     let around = match problem.bodies.get(region) {
-        Some(part) => part.surface.bounds().grown(0.01 * problem.spacing),
+        Some(part) => part.surface.bounds().grown(0.01 * problem.spacing()),
         None => bounds,
     };
     let beside = (on_surface.iter().map(|hit| hit.point)).filter(|&p| around.contains(p));
@@ -162,8 +162,8 @@ fn between<const D: usize>(
         .chain([around.center()])
         .filter(|&p| bounds.contains(p) && around.contains(p))
         .collect();
-    let near = 2.0 * problem.spacing;
-    let depths = Depths::of(&problem.bodies, bounds, problem.spacing, near, &places);
+    let near = 2.0 * problem.spacing();
+    let depths = Depths::of(&problem.bodies, bounds, problem.spacing(), near, &places);
     let of_bodies = region.min(parts);
     let clear: Vec<[f64; D]> = (0..places.len())
         .filter(|&i| depths.within(of_bodies, i) > 0.0 && is_clear(problem, &depths, of_bodies, i))

@@ -160,7 +160,7 @@ impl Agitated {
         log.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         // All in units of ∆s/√p_b (eqs. 16, 18, 19).
-        let size = problem.spacing;
+        let size = problem.spacing();
         let period = self.revolution * size;
         let round = self.steady_revolutions * if D == 2 { period } else { 2.0 * period };
         let slow = 0.5 * size * TAU / period;
@@ -303,7 +303,7 @@ impl Agitated {
         let Ok(tree) = KdTree::new(&particles.position) else {
             return Vec::new();
         };
-        let step = self.grid_over_spacing * problem.spacing;
+        let step = self.grid_over_spacing * problem.spacing();
         let bounds = problem.domain.bounds;
         let cells: [usize; D] =
             std::array::from_fn(|k| ((bounds.size()[k] / step).floor() as usize).max(1));
@@ -316,7 +316,7 @@ impl Agitated {
             let Some(found) = tree.nearest(middle) else {
                 continue;
             };
-            let (i, away) = (found.index, AWAY * problem.spacing);
+            let (i, away) = (found.index, AWAY * problem.spacing());
             let p = particles.position[i];
             let is_near = |s: &ParticleSurface<D>| s.surface.closest_within(p, away).is_some();
             if particles.kind[i] == Kind::Free && !surfaces.iter().any(is_near) {
@@ -338,7 +338,7 @@ impl Agitated {
     ) -> bool {
         let before = particles.count(Kind::Boundary);
         let [to_boundary, to_free] =
-            [reach, self.conversion_over_spacing[1]].map(|d| d * problem.spacing);
+            [reach, self.conversion_over_spacing[1]].map(|d| d * problem.spacing());
         let kinds: Vec<(Kind, Option<u16>)> = (0..particles.len())
             .into_par_iter()
             .with_min_len(256)

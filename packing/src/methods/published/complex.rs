@@ -139,19 +139,18 @@ impl Complex {
         let first_layer = first_layer(problem, &relaxed.particles);
         let fluid_gamma = problem.perfect_gamma();
         let mut fluid = relaxed.whole;
-        fluid.repulsion = settling.early_repulsion(problem.spacing);
+        fluid.repulsion = settling.early_repulsion(problem.spacing());
         fluid.levelled = is_solid.iter().map(|is_solid| !is_solid).collect();
         let mut energy = Energy::new(
             &mut relaxed.particles,
             &relaxed.surfaces,
             fluid,
-            problem.spacing,
             problem.support(),
         );
         energy.add(self.solids(problem, is_solid, &settling));
         energy.penalise(GradientPenalty::of(first_layer, self.gradient_penalty));
         energy.keep_sides(&problem.bodies);
-        let [_, last] = settling.schedule(problem.spacing, fluid_gamma);
+        let [_, last] = settling.schedule(problem.spacing(), fluid_gamma);
         let reason = settling.run(&mut energy, log, &[last])?;
         energy
             .added()
@@ -173,9 +172,9 @@ impl Complex {
         settling: &Settling,
     ) -> Forces<D> {
         let (kernel, ratio) = (problem.kernel, self.relaxation.solid_h_over_spacing);
-        let h = ratio * problem.spacing;
+        let h = ratio * problem.spacing();
         let lattice = (problem.lattice).unwrap_or(Lattice::auto(D, kernel, ratio));
-        let gamma = (lattice.fill(problem.domain.bounds, problem.spacing)).gamma(kernel, h);
+        let gamma = (lattice.fill(problem.domain.bounds, problem.spacing())).gamma(kernel, h);
         let none = Repulsion::none();
         let mut forces = Forces::new(&problem.domain, kernel, h, problem.skin(), none);
         forces.levelled = is_solid;
@@ -186,7 +185,7 @@ impl Complex {
 
 /// The first layer of fluid around the bodies, by its particles' numbers.
 fn first_layer<const D: usize>(problem: &Problem<D>, particles: &Particles<D>) -> Vec<u32> {
-    let reach = FIRST_LAYER * problem.spacing;
+    let reach = FIRST_LAYER * problem.spacing();
     let is_near = |p: [f64; D]| {
         let p = problem.domain.wrap(p);
         let near = |body: &Body<D>| body.surface.closest_within(p, reach).is_some();

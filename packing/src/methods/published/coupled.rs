@@ -163,7 +163,7 @@ impl Coupled {
         place: usize,
         nearest: &(dyn Fn([f64; D], u16) -> Closest<D> + Sync),
     ) -> Result<(), PackingError> {
-        let (h, spacing) = (problem.smoothing_length(), problem.spacing);
+        let (h, spacing) = (problem.smoothing_length(), problem.spacing());
         let zeta = self.damping * SYMMETRIC.sqrt() / spacing;
         let cohesion = self.cohesion * problem.support() / h;
         let mut forces = Forces::of(problem, Repulsion::none());
@@ -252,7 +252,7 @@ impl Coupled {
         log: &mut RunLog<'_>,
     ) -> Result<(StopReason, Forces<D>), PackingError> {
         let h = problem.smoothing_length();
-        let zeta = self.damping * SYMMETRIC.sqrt() / problem.spacing;
+        let zeta = self.damping * SYMMETRIC.sqrt() / problem.spacing();
         let mut forces = Forces::of(problem, Repulsion::none());
         let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
@@ -293,7 +293,7 @@ impl Coupled {
 /// The nearest place on the outside's surface, ∆s/2 outside the nearest body; its normal points to the body, out of
 /// the outside, and its distance is negative outside.
 fn outer_surface<const D: usize>(problem: &Problem<D>, p: [f64; D]) -> Closest<D> {
-    let half = 0.5 * problem.spacing;
+    let half = 0.5 * problem.spacing();
     let hit = (problem.bodies.iter())
         .map(|body| body.surface.closest(p))
         .min_by(|a, b| a.distance.total_cmp(&b.distance))
@@ -308,9 +308,12 @@ fn divide<const D: usize>(
     surfaces: &[ParticleSurface<D>],
     lattice: &Particles<D>,
 ) -> [Particles<D>; 2] {
-    let (mut inner, mut outer) = (Particles::default(), Particles::default());
+    let (mut inner, mut outer) = (
+        Particles::new(problem.sizes()),
+        Particles::new(problem.sizes()),
+    );
     let across = |p: [f64; D], beyond: f64, normal: [f64; D]| {
-        let moved = point::add_scaled(p, -problem.spacing, normal);
+        let moved = point::add_scaled(p, -problem.spacing(), normal);
         problem.domain.clamp(if beyond > 0.0 { moved } else { p })
     };
     for i in 0..lattice.len() {

@@ -106,16 +106,16 @@ impl Hybrid {
             mut particles,
             frozen_lattice,
         } = seed(problem)?;
-        fix_corners(&mut particles, &surfaces, problem.spacing);
+        fix_corners(&mut particles, &surfaces, problem.spacing());
         if self.predicted > 0.0 {
-            predict(&mut particles, &surfaces, self.predicted, problem.spacing);
+            predict(&mut particles, &surfaces, self.predicted, problem.spacing());
         }
-        let reach = self.moving_over_spacing * problem.spacing;
+        let reach = self.moving_over_spacing * problem.spacing();
         let unmoved = hold(&mut particles, &surfaces, reach);
         log.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         // SetConstantAndTimeStep, for p_b = 1
-        let (h, spacing) = (problem.smoothing_length(), problem.spacing);
+        let (h, spacing) = (problem.smoothing_length(), problem.spacing());
         let zeta = self.damping / spacing;
         let mut forces = Forces::of(problem, Repulsion::new(spacing, self.repulsion));
         let mut motion = Motion::at_rest(&problem.domain, particles.len());
@@ -232,7 +232,7 @@ impl Hybrid {
             log.progress.tolerance = settling.tolerance();
             let stages = settling.schedule(spacing, problem.perfect_gamma());
             let reach = problem.support();
-            let mut energy = Energy::new(&mut particles, &surfaces, forces, spacing, reach);
+            let mut energy = Energy::new(&mut particles, &surfaces, forces, reach);
             stop_reason = settling.run(&mut energy, log, &stages)?;
             forces = energy.into_forces();
         }

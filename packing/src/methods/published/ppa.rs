@@ -139,7 +139,7 @@ impl Ppa {
         log.seconds.seeding = seeding.elapsed().as_secs_f64();
 
         log.enter(Stage::Settling);
-        let size = problem.spacing;
+        let size = problem.spacing();
         let viscosity = self.damping / size;
         let dt = self.cfl * size;
         let apart = Repulsion::with_reach(size, APART, PAIRED);
@@ -208,7 +208,7 @@ impl Ppa {
 
     /// The place as far off the walls as the floor asks, in a corner first from one wall, then from the other.
     fn off_walls<const D: usize>(&self, problem: &Problem<D>, p: [f64; D]) -> [f64; D] {
-        let floor = FLOOR * problem.spacing;
+        let floor = FLOOR * problem.spacing();
         let step = |p| off_bound(p, &self.wall(problem, p), floor);
         problem.domain.clamp(put_back(p, CORNER_ROUNDS, step))
     }
@@ -227,7 +227,7 @@ impl Ppa {
         let Ok(tree) = KdTree::new(&at) else {
             return at;
         };
-        let crowded = CROWDED * problem.spacing;
+        let crowded = CROWDED * problem.spacing();
         let mut is_kept: Vec<bool> = at.iter().zip(sites).map(|(p, site)| p == site).collect();
         for i in 0..at.len() {
             let is_alone = || (tree.within(at[i], crowded).iter()).all(|near| !is_kept[near.index]);
@@ -253,7 +253,7 @@ impl Ppa {
             (problem.bodies.iter().enumerate())
                 .all(|(b, body)| body.surface.inside(p) == self.holds_fluid(b))
         };
-        let mut particles = Particles::default();
+        let mut particles = Particles::new(problem.sizes());
         let sites = |kind: Kind| {
             (0..lattice.len())
                 .filter(move |&i| lattice.kind[i] == kind)
@@ -269,7 +269,7 @@ impl Ppa {
         walls.retain(|&p| !is_fluid(p));
         let gaps: Vec<[f64; D]> = match KdTree::new(&walls) {
             Ok(tree) if !walls.is_empty() => {
-                let clearance = CLEARANCE * problem.spacing;
+                let clearance = CLEARANCE * problem.spacing();
                 let far = |p: [f64; D]| {
                     tree.nearest(p)
                         .is_none_or(|found| found.distance > clearance)
@@ -315,7 +315,7 @@ impl Ppa {
 
     /// Layers of points behind every surface, seen from the fluid.
     fn walls<const D: usize>(&self, problem: &Problem<D>) -> Result<Vec<[f64; D]>, PackingError> {
-        let layers = (problem.frozen_depth() / problem.spacing).ceil() as usize;
+        let layers = (problem.frozen_depth() / problem.spacing()).ceil() as usize;
         let mut points = Vec::new();
         for (number, body) in problem.bodies.iter().enumerate() {
             let fail = |source| PackingError::Surface {
@@ -323,11 +323,11 @@ impl Ppa {
                 source,
             };
             for layer in 0..layers {
-                let depth = (layer as f64 + 0.5) * problem.spacing;
+                let depth = (layer as f64 + 0.5) * problem.spacing();
                 let found = if self.holds_fluid(number) {
-                    outside(body.surface.as_ref(), depth, problem.spacing)
+                    outside(body.surface.as_ref(), depth, problem.spacing())
                 } else {
-                    inside(body.surface.as_ref(), depth, problem.spacing)
+                    inside(body.surface.as_ref(), depth, problem.spacing())
                 };
                 match found {
                     Ok(found) => points.extend(found),

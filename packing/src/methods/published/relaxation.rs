@@ -197,13 +197,13 @@ impl Relaxation {
         surfaces: &'a [ParticleSurface<D>],
         solids: Vec<Particles<D>>,
     ) -> Vec<Confined<'a, D>> {
-        let h = self.solid_h_over_spacing * problem.spacing;
+        let h = self.solid_h_over_spacing * problem.spacing();
         (problem.bodies.iter().zip(surfaces).zip(solids))
             .map(|((body, held), particles)| {
                 let (kernel, domain) = (problem.kernel, &problem.domain);
                 let forces = Forces::new(domain, kernel, h, problem.skin(), Repulsion::none());
                 let (body, share) = (body.surface.as_ref(), body.inner_share());
-                let confinement = Confinement::inside(body, domain, kernel, h, problem.spacing);
+                let confinement = Confinement::inside(body, domain, kernel, h, problem.spacing());
                 let bound: Bound<'a, D> = Box::new(|p, _| held.surface.closest(p));
                 Confined::new(particles, share, forces, Some(confinement), bound)
             })
@@ -250,7 +250,7 @@ fn confined_fluid<'a, const D: usize>(
                 .map(|body| body.surface.as_ref())
                 .collect();
             let (domain, h) = (&problem.domain, problem.smoothing_length());
-            let all = Confinement::outside(&bodies, domain, problem.kernel, h, problem.spacing);
+            let all = Confinement::outside(&bodies, domain, problem.kernel, h, problem.spacing());
             // What surface particles have on this side of a surface that they sit on.
             for solid in solids {
                 let (particles, kind) = (&solid.particles, &solid.particles.kind);
@@ -286,7 +286,7 @@ fn fluid_bound<const D: usize>(
     let wrapped = problem.domain.wrap(p);
     let back = point::sub(p, wrapped);
     let bounds = (problem.bodies.iter()).map(|body| {
-        let floor = problem.spacing
+        let floor = problem.spacing()
             * match interface {
                 Interface::Confinement => (1.0 - body.inset_over_spacing).max(0.0),
                 Interface::Particles => 1.0 - body.inner_share(),
@@ -307,7 +307,7 @@ fn together<const D: usize>(
     fluid: &Confined<'_, D>,
     own: usize,
 ) -> (Particles<D>, Vec<usize>) {
-    let mut all = Particles::default();
+    let mut all = Particles::new(fluid.particles.sizes.clone());
     let mut on_surface = Vec::new();
     for (one, count) in
         (solids.iter().map(|solid| (solid, solid.particles.len()))).chain([(fluid, own)])

@@ -101,7 +101,7 @@ impl Standard {
 
         // SetConstantAndTimeStep, for p_b = 1
         let h = problem.smoothing_length();
-        let zeta = self.damping / problem.spacing;
+        let zeta = self.damping / problem.spacing();
         let mut forces = Forces::of(problem, Repulsion::none());
         let mut motion = Motion::at_rest(&problem.domain, particles.len());
         let mut on_surface = OnSurface::default();
@@ -149,7 +149,7 @@ fn layers<const D: usize>(
     problem: &Problem<D>,
     volume: f64,
 ) -> Result<(Particles<D>, Vec<Kind>), PackingError> {
-    let mut particles = Particles::default();
+    let mut particles = Particles::new(problem.sizes());
     let mut kinds = Vec::new();
     for (body, number) in problem.bodies.iter().zip(0_u16..) {
         let fail = |source| PackingError::Surface {
@@ -161,7 +161,7 @@ fn layers<const D: usize>(
             earlier.iter().any(|other| other.surface.inside(p))
         };
         for layer in 0.. {
-            let depth = (body.inset_over_spacing + f64::from(layer)) * problem.spacing;
+            let depth = (body.inset_over_spacing + f64::from(layer)) * problem.spacing();
             // By distance: deep polygon offsets of a curve of many points cross themselves everywhere, and take minutes.
             let inset = match layer {
                 0 => body.surface.inset(depth),
@@ -176,13 +176,14 @@ fn layers<const D: usize>(
             // As many as fit at a distance of ∆s.
             let earlier = KdTree::new(&particles.position).ok();
             let mut own: Vec<[f64; D]> = Vec::new();
-            let count = (surface.measure() / problem.spacing).floor().max(1.0) as usize;
+            let count = (surface.measure() / problem.spacing()).floor().max(1.0) as usize;
             for hit in surface.sample(count).map_err(fail)? {
-                let is_close =
-                    |other: [f64; D]| point::distance(other, hit.point) < CROWDED * problem.spacing;
+                let is_close = |other: [f64; D]| {
+                    point::distance(other, hit.point) < CROWDED * problem.spacing()
+                };
                 let nearest = earlier.as_ref().and_then(|tree| tree.nearest(hit.point));
                 let is_crowded = nearest
-                    .is_some_and(|found| found.distance < CROWDED * problem.spacing)
+                    .is_some_and(|found| found.distance < CROWDED * problem.spacing())
                     || own.iter().any(|&other| is_close(other));
                 if is_crowded || is_taken(hit.point) {
                     continue;

@@ -200,7 +200,7 @@ fn check<const D: usize>(name: &str, problem: &Problem<D>, pack: Pack<D>) {
             assert!(off.abs() < 1e-9, "{name}: {off}");
         }
         if kind != Kind::Frozen {
-            let around = problem.domain.bounds.grown(0.5 * problem.spacing);
+            let around = problem.domain.bounds.grown(0.5 * problem.spacing());
             assert!(around.contains(p), "{name}: {p:?}");
         }
     }
@@ -377,7 +377,7 @@ fn first_layer(problem: &Problem<2>, packed: &Packed<2>) -> (f64, f64) {
         .filter(|&i| particles.kind[i] == Kind::Free && particles.body[i].is_none())
         .filter(|&i| {
             let hit = problem.bodies[0].surface.closest(particles.position[i]);
-            hit.distance < problem.spacing
+            hit.distance < problem.spacing()
         })
         .map(|i| fields.residual(i))
         .collect();

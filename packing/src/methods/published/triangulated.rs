@@ -70,10 +70,10 @@ impl Triangulated {
         log.enter(Stage::Geometry);
         let geometry = Instant::now();
         let surfaces = particle_surfaces(problem)?;
-        let mut particles = Particles::default();
+        let mut particles = Particles::new(problem.sizes());
         for (body, number) in problem.bodies.iter().zip(0_u16..) {
             let earlier = &problem.bodies[..usize::from(number)];
-            for (p, area) in triangles(body.surface.as_ref(), problem.spacing) {
+            for (p, area) in triangles(body.surface.as_ref(), problem.spacing()) {
                 if !earlier.iter().any(|other| other.surface.inside(p)) {
                     particles.push(p, Kind::Free, area, Some(number));
                 }

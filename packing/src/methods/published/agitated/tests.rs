@@ -6,14 +6,14 @@ use sphpack_neighbors::{Domain, point};
 use super::near::{Near, REACH};
 use super::{Agitated, Agitators};
 use crate::particles::Particles;
-use crate::{Kind, Lattice, Method, Problem, RunLog, Silent, StopReason};
+use crate::{Kind, Lattice, Method, Problem, RunLog, Silent, Sizes, StopReason};
 
 /// Repulsion reaches across periodic sides: it conserves momentum there, and pushes as it does within.
 #[test]
 fn repulsion_reaches_across_periodic_sides() {
     let domain = Domain::new([0.0; 2], [8.0; 2]).with_periodic([true, true]);
     let pushes = |shift: f64| {
-        let mut particles = Particles::default();
+        let mut particles = Particles::new(Sizes::uniform(1.0, 1.2));
         for place in [[0.2, 3.0], [1.3, 3.2], [7.4, 3.4], [0.4, 7.8], [0.9, 0.6]] {
             let place = domain.wrap(point::add(place, [shift, 0.4 * shift]));
             particles.push(place, Kind::Free, 1.0, None);

@@ -58,7 +58,7 @@ impl<const D: usize> Start<D> {
             };
             let points = held.surface.sample(on_surface).map_err(fail)?;
             let deep = share.sites.saturating_sub(points.len());
-            let mut solid = Particles::default();
+            let mut solid = Particles::new(problem.sizes());
             let mut push = |place, kind| {
                 solid.push(place, kind, share.particle_volume, Some(number));
             };
@@ -72,7 +72,7 @@ impl<const D: usize> Start<D> {
         }
         let fluid_sites = Sites::of(problem, problem.chosen_lattice());
         let share = fluid_sites.share(room[bodies]);
-        let mut fluid = Particles::default();
+        let mut fluid = Particles::new(problem.sizes());
         for site in fluid_sites.deepest(problem, bodies, share.sites) {
             fluid.push(site, Kind::Free, share.particle_volume, None);
         }
@@ -105,7 +105,7 @@ impl<const D: usize> Sites<D> {
         };
         let (filling, _) = seed_lattice(&own);
         let (sites, bounds) = (filling.sites(), problem.domain.bounds);
-        let (spacing, near) = (problem.spacing, 2.0 * problem.spacing);
+        let (spacing, near) = (problem.spacing(), 2.0 * problem.spacing());
         Self {
             depths: Depths::of(&problem.bodies, bounds, spacing, near, &sites),
             sites,
@@ -125,7 +125,7 @@ impl<const D: usize> Sites<D> {
     /// The deepest sites of a region, the bodies' or, last, the fluid's.
     fn deepest(&self, problem: &Problem<D>, region: usize, count: usize) -> Vec<[f64; D]> {
         let depths = (0..self.sites.len()).map(|i| (i, self.depths.within(region, i)));
-        let mut kept = deepest(depths, count, problem.spacing, problem.seed);
+        let mut kept = deepest(depths, count, problem.spacing(), problem.seed);
         kept.sort_unstable();
         kept.into_iter().map(|i| self.sites[i]).collect()
     }
@@ -137,9 +137,9 @@ fn room<const D: usize>(problem: &Problem<D>, surfaces: &[ParticleSurface<D>]) -
     let bodies = &problem.bodies;
     let volume = |number: usize| {
         let (body, held) = (&bodies[number], &surfaces[number].surface);
-        body.surface.volume() + (1.0 - body.inner_share()) * held.measure() * problem.spacing
+        body.surface.volume() + (1.0 - body.inner_share()) * held.measure() * problem.spacing()
     };
-    (directly_inside(bodies, problem.spacing)
+    (directly_inside(bodies, problem.spacing())
         .into_iter()
         .enumerate())
     .map(|(region, within)| {
