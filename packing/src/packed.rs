@@ -7,8 +7,10 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
 use crate::lattice::{Filling, Lattice};
+use crate::methods::MethodInfo;
 use crate::observer::HistoryPoint;
 use crate::particles::Particles;
+use crate::problem::Problem;
 
 /// Why a packing stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,6 +79,10 @@ pub struct Omitted<const D: usize> {
 /// Particles at rest, with what is known about them and how they came there.
 #[derive(Debug, Clone)]
 pub struct Packed<const D: usize> {
+    /// What was to be packed.
+    pub problem: Problem<D>,
+    /// The method that packed it.
+    pub method: &'static MethodInfo,
     /// All particles, frozen ones included.
     pub particles: Particles<D>,
     /// The box.
@@ -115,6 +121,11 @@ pub struct Packed<const D: usize> {
 }
 
 impl<const D: usize> Packed<D> {
+    /// Where all particles are, frozen ones included.
+    pub fn positions(&self) -> &[[f64; D]] {
+        &self.particles.position
+    }
+
     pub(crate) fn with_known_sides(self) -> Self {
         Self {
             knows_sides: true,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sphpack_geometry::{GeometryError, Repeated, Surface, Thin};
 use sphpack_kernels::KernelKind;
-use sphpack_neighbors::{Domain, words};
+use sphpack_neighbors::{Bounds, Domain, words};
 
 use crate::lattice::{Filling, Lattice};
 use crate::resolution::Resolution;
@@ -224,6 +224,39 @@ impl<const D: usize> Problem<D> {
             seen_within: 0.0,
             seed: 0,
         }
+    }
+
+    /// The body in a box that is as much larger as the body's longest edge to every side ([`Problem::margin`] gives it
+    /// another), otherwise as [`Problem::new`]. The body's name is "body".
+    ///
+    /// ```
+    /// use sphpack_geometry::Outline;
+    /// use sphpack_packing::{Balanced, Problem};
+    ///
+    /// let wing = Outline::naca("0015", 1.0)?;
+    /// let packed = Problem::around(&wing, 0.05).margin(0.3).pack(&Balanced::default())?;
+    /// assert!(packed.quality().density.linf < 0.01);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn around<S>(body: &S, resolution: impl Into<Resolution<D>>) -> Self
+    where
+        S: Surface<D> + Clone + 'static,
+    {
+        let edge = (body.bounds().size().into_iter()).fold(0.0, f64::max);
+        let domain = Domain {
+            bounds: body.bounds().grown(edge),
+            periodic: [false; D],
+        };
+        Self::new(domain, resolution).body("body", body.clone())
+    }
+
+    /// The box becomes that of the bodies, larger by `margin` (scene units) to every side.
+    #[must_use]
+    pub fn margin(mut self, margin: f64) -> Self {
+        self.domain.bounds = (self.bodies.iter())
+            .fold(Bounds::EMPTY, |all, body| all.union(body.surface.bounds()))
+            .grown(margin);
+        self
     }
 
     /// Adds a body by its true surface; its boundary particles will sit ∆s/2 inside.

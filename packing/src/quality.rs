@@ -1,5 +1,7 @@
 //! Measures of a particle set, the same for every method and for anybody's particles.
 
+use std::fmt;
+
 use rayon::prelude::*;
 use sphpack_geometry::thickness;
 use sphpack_kernels::KernelKind;
@@ -92,6 +94,20 @@ pub struct Quality {
     pub crowded: f64,
     /// Where that is; empty where it is nowhere.
     pub crowded_at: Vec<f64>,
+}
+
+/// The figures in a line, such as `L∞ 0.0010, residual 2.1e-3, closest pair 0.92, on surfaces 0e0`.
+impl fmt::Display for Quality {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let off = (self.surface.iter()).fold(0.0, |most: f64, surface| {
+            most.max(surface.max_distance_over_spacing)
+        });
+        write!(
+            f,
+            "L∞ {:.4}, residual {:.1e}, closest pair {:.2}, on surfaces {off:.0e}",
+            self.density.linf, self.residual.max, self.closest_pair_over_spacing
+        )
+    }
 }
 
 impl<const D: usize> Fields<D> {

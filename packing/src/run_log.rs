@@ -8,6 +8,7 @@ use sphpack_neighbors::point;
 
 use crate::forces::{Forces, largest};
 use crate::lattice::Filling;
+use crate::methods::MethodInfo;
 use crate::observer::{HistoryPoint, Keeper, Observer, Progress, Stage};
 use crate::packed::{Packed, ParticleSurface, Seconds, StopReason};
 use crate::particles::{Kind, Particles};
@@ -26,7 +27,8 @@ use crate::state::{Damaged, State, Value, values};
 /// # drop(log);
 /// ```
 pub struct RunLog<'a> {
-    begin: Instant,
+    began: Instant,
+    method: Option<&'static MethodInfo>,
     observer: &'a mut dyn Observer,
     history: Vec<HistoryPoint>,
     /// Where the time went so far; a method fills in what only it knows.
@@ -73,7 +75,8 @@ impl<'a> RunLog<'a> {
     pub fn new(observer: &'a mut dyn Observer) -> Self {
         let earlier = observer.keeper().and_then(Keeper::earlier);
         Self {
-            begin: Instant::now(),
+            began: Instant::now(),
+            method: None,
             observer,
             history: Vec::new(),
             seconds: Seconds::default(),
@@ -97,14 +100,20 @@ impl<'a> RunLog<'a> {
         }
     }
 
-    /// The method will stop at `tolerance` or after `max_evaluations`.
-    pub(crate) fn aim(&mut self, tolerance: f64, max_evaluations: usize) {
+    /// A method begins, which will stop at `tolerance` or after `max_evaluations`.
+    pub(crate) fn begin(
+        &mut self,
+        method: &'static MethodInfo,
+        tolerance: f64,
+        max_evaluations: usize,
+    ) {
+        self.method = Some(method);
         self.progress.tolerance = tolerance;
         self.progress.max_evaluations = max_evaluations;
     }
 
     fn seconds_so_far(&self) -> f64 {
-        self.seconds_before + self.begin.elapsed().as_secs_f64()
+        self.seconds_before + self.began.elapsed().as_secs_f64()
     }
 
     /// At the beginning of a loop: where an earlier run has been in it or beyond, `parts` become as they were there. Of
@@ -249,6 +258,8 @@ impl<'a> RunLog<'a> {
         self.seconds.minimiser = (total - booked).max(0.0);
         Packed {
             particles,
+            problem: problem.clone(),
+            method: self.method.unwrap_or(&MethodInfo::USUAL),
             domain: problem.domain,
             spacing: problem.spacing(),
             lattice: problem.chosen_lattice(),

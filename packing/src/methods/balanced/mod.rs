@@ -111,7 +111,7 @@ impl Balanced {
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
         let settling = &self.settling;
-        log.aim(settling.tolerance(), settling.max_evaluations);
+        log.begin(&Self::INFO, settling.tolerance(), settling.max_evaluations);
         self.check_in(problem)?;
         log.enter(Stage::Geometry);
         let geometry = Instant::now();

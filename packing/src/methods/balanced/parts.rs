@@ -112,6 +112,7 @@ impl<const D: usize> Parts<D> {
                 target_count,
             })
             .collect();
+        packed.problem = problem.clone();
         packed.bodies = problem
             .bodies
             .iter()

@@ -145,7 +145,7 @@ impl Agitated {
         problem: &Problem<D>,
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        log.aim(self.density_tolerance, self.max_iterations);
+        log.begin(&Self::INFO, self.density_tolerance, self.max_iterations);
         let surfaces = log.surfaces(problem)?;
         log.enter(Stage::Seeding);
         let seeding = Instant::now();

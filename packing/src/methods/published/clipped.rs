@@ -43,7 +43,7 @@ impl Clipped {
         problem: &Problem<D>,
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        log.aim(0.0, 1);
+        log.begin(&Self::INFO, 0.0, 1);
         log.enter(Stage::Seeding);
         let seeding = Instant::now();
         let Seeds {

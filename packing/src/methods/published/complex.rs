@@ -110,7 +110,7 @@ impl Complex {
             self.relaxation.residual_tolerance,
             self.relaxation.max_iterations,
         );
-        log.aim(tolerance, most);
+        log.begin(&Self::INFO, tolerance, most);
         let mut relaxed = (self.relaxation).relax(problem, log, Interface::Particles)?;
         if self.levelling > 0.0 && most > 0 {
             relaxed = self.level(problem, relaxed, log)?;

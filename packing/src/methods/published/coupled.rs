@@ -106,7 +106,7 @@ impl Coupled {
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
         let limit = 2 * self.apart_iterations + self.max_iterations;
-        log.aim(self.velocity_tolerance, limit);
+        log.begin(&Self::INFO, self.velocity_tolerance, limit);
         // ReadInput
         let surfaces = log.surfaces(problem)?;
 

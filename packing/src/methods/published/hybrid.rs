@@ -95,7 +95,7 @@ impl Hybrid {
         problem: &Problem<D>,
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        log.aim(self.velocity_tolerance, self.max_iterations);
+        log.begin(&Self::INFO, self.velocity_tolerance, self.max_iterations);
         // ReadInput
         let surfaces = log.surfaces(problem)?;
 

@@ -117,7 +117,7 @@ impl Ppa {
         problem: &Problem<D>,
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        log.aim(self.energy_tolerance, self.max_iterations);
+        log.begin(&Self::INFO, self.energy_tolerance, self.max_iterations);
         log.enter(Stage::Geometry);
         let geometry = Instant::now();
         problem.check()?;

@@ -105,7 +105,7 @@ impl Relaxation {
         problem: &Problem<D>,
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        log.aim(self.residual_tolerance, self.max_iterations);
+        log.begin(&Self::INFO, self.residual_tolerance, self.max_iterations);
         let relaxed = self.relax(problem, log, Interface::Confinement)?;
         Ok(relaxed.end(problem, log))
     }

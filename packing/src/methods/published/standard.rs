@@ -85,7 +85,7 @@ impl Standard {
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
         Self::INFO.check_dimension(D)?;
-        log.aim(self.velocity_tolerance, self.max_iterations);
+        log.begin(&Self::INFO, self.velocity_tolerance, self.max_iterations);
         // ReadInput
         let surfaces = log.surfaces(problem)?;
 

@@ -65,7 +65,7 @@ impl Triangulated {
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
         Self::INFO.check_dimension(D)?;
-        log.aim(0.0, 1);
+        log.begin(&Self::INFO, 0.0, 1);
         problem.check()?;
         log.enter(Stage::Geometry);
         let geometry = Instant::now();
