@@ -202,7 +202,7 @@ fn extension<S: Serializer>(format: &BodyFormat, to: S) -> Result<S::Ok, S::Erro
 
 /// Measures the thickness at places that stand for equal parts of the surface.
 fn thin<const D: usize>(surface: &dyn Surface<D>, spacing: f64) -> Thin {
-    let probes = surface.strew(PROBES);
+    let probes = surface.scatter(PROBES);
     let mut found = Thin {
         spacing,
         part_of_surface: 0.0,

@@ -114,8 +114,8 @@ impl<const D: usize> Surface<D> for Placed<D> {
         Ok(hits.into_iter().map(|hit| self.forward(hit)).collect())
     }
 
-    fn strew(&self, count: usize) -> Vec<Closest<D>> {
-        let hits = self.surface.strew(count);
+    fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+        let hits = self.surface.scatter(count);
         hits.into_iter().map(|hit| self.forward(hit)).collect()
     }
 }

@@ -240,7 +240,7 @@ impl Whole<3> for Mesh {
         features_in(self.features(), domain)
     }
 
-    fn strewn_in(&self, domain: &Domain<3>, count: usize) -> Candidates<3> {
+    fn scattered_in(&self, domain: &Domain<3>, count: usize) -> Candidates<3> {
         let pieces = pieces_in(self, domain);
         let mut across = 0.5;
         Candidates::systematic(
@@ -261,7 +261,7 @@ impl Whole<3> for Mesh {
         surface: &Continued<3>,
         count: usize,
     ) -> Result<Vec<Closest<3>>, GeometryError> {
-        let strew = |_, wanted| self.strewn_in(&surface.domain, wanted);
-        spread(surface, count, &|p| surface.closest(p), strew)
+        let scatter = |_, wanted| self.scattered_in(&surface.domain, wanted);
+        spread(surface, count, &|p| surface.closest(p), scatter)
     }
 }

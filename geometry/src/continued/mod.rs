@@ -61,8 +61,8 @@ pub(crate) trait Whole<const D: usize>: Surface<D> {
     /// [`Surface::features`] within the box.
     fn features_in(&self, domain: &Domain<D>) -> Features<D>;
 
-    /// [`Surface::strew`] within the box.
-    fn strewn_in(&self, domain: &Domain<D>, count: usize) -> Candidates<D>;
+    /// [`Surface::scatter`] within the box.
+    fn scattered_in(&self, domain: &Domain<D>, count: usize) -> Candidates<D>;
 
     /// [`Surface::sample`] within the box, of which `surface` is the part.
     fn sample_in(
@@ -172,8 +172,8 @@ impl<const D: usize> Surface<D> for Continued<D> {
         self.whole.sample_in(self, count)
     }
 
-    fn strew(&self, count: usize) -> Vec<Closest<D>> {
-        self.whole.strewn_in(&self.domain, count).hits()
+    fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+        self.whole.scattered_in(&self.domain, count).hits()
     }
 }
 

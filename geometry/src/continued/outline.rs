@@ -259,7 +259,7 @@ impl Whole<2> for Outline {
         features
     }
 
-    fn strewn_in(&self, domain: &Domain<2>, count: usize) -> Candidates<2> {
+    fn scattered_in(&self, domain: &Domain<2>, count: usize) -> Candidates<2> {
         let place = |side: &Segment, before: f64| {
             (
                 point::add_scaled(side.start, before, side.edge),

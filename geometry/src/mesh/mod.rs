@@ -4,7 +4,7 @@ mod features;
 pub(crate) mod inset;
 mod normals;
 mod pieces;
-mod strew;
+mod scatter;
 mod surface;
 #[cfg(test)]
 pub(crate) mod tests;

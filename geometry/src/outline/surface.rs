@@ -158,7 +158,7 @@ impl Surface<2> for Outline {
         Ok(along(self, &rings, count))
     }
 
-    fn strew(&self, count: usize) -> Vec<Closest<2>> {
+    fn scatter(&self, count: usize) -> Vec<Closest<2>> {
         let place = |side: &Segment, before: f64| {
             (
                 point::add_scaled(side.start, before, side.edge),

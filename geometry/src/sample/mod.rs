@@ -77,8 +77,8 @@ pub(crate) fn evenly_near<const D: usize, S: Surface<D> + ?Sized>(
     }
 }
 
-/// [`Surface::strew`] for a surface of which nothing but its answers is known.
-pub(crate) fn strewn<const D: usize, S: Surface<D> + ?Sized>(
+/// [`Surface::scatter`] for a surface of which nothing but its answers is known.
+pub(crate) fn scattered<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     count: usize,
 ) -> Vec<Closest<D>> {

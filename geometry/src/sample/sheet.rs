@@ -14,12 +14,12 @@ use crate::surface::{Closest, Feature, Surface};
 const CANDIDATES: usize = 6;
 
 /// `count` points spread evenly over `surface`. `near` answers like [`Surface::closest`] near the surface, perhaps
-/// less exactly and faster; `strew` gives so many candidates for a spacing.
+/// less exactly and faster; `scatter` gives so many candidates for a spacing.
 pub(crate) fn spread<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     count: usize,
     near: &(impl Fn([f64; D]) -> Closest<D> + Sync),
-    strew: impl FnOnce(f64, usize) -> Candidates<D>,
+    scatter: impl FnOnce(f64, usize) -> Candidates<D>,
 ) -> Result<Vec<Closest<D>>, GeometryError> {
     if count == 0 {
         return Ok(Vec::new());
@@ -29,7 +29,7 @@ pub(crate) fn spread<const D: usize, S: Surface<D> + ?Sized>(
     if sites.len() == count {
         return Ok(sites);
     }
-    let candidates = strew(rough, CANDIDATES * count);
+    let candidates = scatter(rough, CANDIDATES * count);
     if candidates.point.is_empty() {
         return Err(GeometryError::BadParameter {
             shape: "sample",

@@ -9,7 +9,7 @@ use super::sheet::settle;
 use crate::GeometryError;
 use crate::surface::{Closest, Surface};
 
-/// Strewn points per point that is wanted.
+/// Scattered points per point that is wanted.
 const CANDIDATES: usize = 8;
 
 /// Weights below this part of the greatest count as so much: distances between points differ by 100 (2-D) or 10 at most.
@@ -46,7 +46,7 @@ pub fn sample_weighted<const D: usize>(
     if count == 0 {
         return Ok(Vec::new());
     }
-    let hits = surface.strew(CANDIDATES * count);
+    let hits = surface.scatter(CANDIDATES * count);
     let weights: Vec<f64> = hits.iter().map(|hit| weight(hit).max(0.0)).collect();
     let greatest = weights.iter().copied().fold(0.0, f64::max);
     if !(greatest > 0.0 && greatest.is_finite()) {

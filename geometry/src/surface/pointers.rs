@@ -55,8 +55,8 @@ macro_rules! passed_on {
                     (**self).sample(count)
                 }
 
-                fn strew(&self, count: usize) -> Vec<Closest<D>> {
-                    (**self).strew(count)
+                fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+                    (**self).scatter(count)
                 }
 
                 fn closest_batch(&self, points: &[[f64; D]], radius: f64) -> Vec<Option<Closest<D>>> {
@@ -137,7 +137,7 @@ mod tests {
             Ok(vec![HIT; count + 1])
         }
 
-        fn strew(&self, count: usize) -> Vec<Closest<2>> {
+        fn scatter(&self, count: usize) -> Vec<Closest<2>> {
             vec![HIT; count + 2]
         }
 
@@ -163,7 +163,7 @@ mod tests {
         assert_eq!(inset, Err(GeometryError::Vanished { depth: 0.5 }));
         assert_eq!(surface.parts().len(), 2);
         assert_eq!(surface.sample(20), Ok(vec![HIT; 21]));
-        assert_eq!(surface.strew(20), vec![HIT; 22]);
+        assert_eq!(surface.scatter(20), vec![HIT; 22]);
         assert_eq!(surface.closest_batch(&[[0.0; 2]; 5], 1.0).len(), 8);
         assert_eq!(surface.inside_batch(&[[0.0; 2]; 5]).len(), 9);
     }

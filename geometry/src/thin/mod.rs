@@ -169,7 +169,7 @@ fn as_if_thick<const D: usize>(
 fn is_thin<const D: usize>(body: &dyn Surface<D>, count: f64, limit: f64) -> bool {
     use rayon::prelude::*;
     let probes = (PROBES_PER_POINT * count).clamp(FEWEST_PROBES, MOST_PROBES);
-    let hits = body.strew(probes as usize);
+    let hits = body.scatter(probes as usize);
     hits.par_iter()
         .with_min_len(64)
         .any(|hit| through(body, hit.point, point::scale(hit.normal, -1.0), limit) < THIN * limit)

@@ -104,7 +104,7 @@ impl<const D: usize> Shares<D> {
         thin: Thin,
     ) -> Result<Self, GeometryError> {
         let count = PLACES * body.measure() / spacing.powi(D as i32 - 1);
-        let feet = body.strew(count.clamp(FEWEST, MOST) as usize);
+        let feet = body.scatter(count.clamp(FEWEST, MOST) as usize);
         if feet.is_empty() {
             return Err(GeometryError::BadParameter {
                 shape: "sample",
