@@ -101,7 +101,7 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
     /// φ = −depth of the signed distance φ.
     ///
     /// # Errors
-    /// [`GeometryError::Vanished`] where nothing of the body is left.
+    /// [`InsetError::Vanished`](crate::InsetError::Vanished) where nothing of the body is left.
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError>;
 
     /// The connected parts of the body, each with the holes in it and of the kind that this surface is; together they are
@@ -127,7 +127,7 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
     /// the inset of it 1.2 s.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] in other dimensions than 2 and 3, and where no area is found.
+    /// [`GeometryError::Parameter`] in other dimensions than 2 and 3, and where no area is found.
     fn sample(&self, count: usize) -> Result<Vec<Closest<D>>, GeometryError> {
         crate::sample::evenly(self, count)
     }

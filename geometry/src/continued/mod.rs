@@ -12,9 +12,9 @@ use std::sync::Arc;
 
 use sphpack_neighbors::{Bounds, Domain, Odometer, point};
 
-use crate::GeometryError;
 use crate::sample::Candidates;
 use crate::surface::{Closest, Features, Surface};
+use crate::{GeometryError, InsetError};
 
 /// Coordinates within this of a box's side, in parts of the greatest coordinate or size, are on it: single precision.
 const FLUSH: f64 = 1e-6;
@@ -164,7 +164,7 @@ impl<const D: usize> Surface<D> for Continued<D> {
         if moved.volume > 0.0 {
             Ok(Arc::new(moved))
         } else {
-            Err(GeometryError::Vanished { depth })
+            Err(InsetError::Vanished { depth }.into())
         }
     }
 

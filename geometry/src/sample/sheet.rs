@@ -6,9 +6,9 @@ use sphpack_neighbors::Domain;
 use super::candidates::Candidates;
 use super::local::Local;
 use super::{features, relax, thinning};
-use crate::GeometryError;
 use crate::continued::within_window;
 use crate::surface::{Closest, Feature, Surface};
+use crate::{GeometryError, ParameterError};
 
 /// Candidates per point.
 const CANDIDATES: usize = 6;
@@ -31,12 +31,13 @@ pub(crate) fn spread<const D: usize, S: Surface<D> + ?Sized>(
     }
     let candidates = scatter(rough, CANDIDATES * count);
     if candidates.point.is_empty() {
-        return Err(GeometryError::BadParameter {
-            shape: "sample",
+        return Err(ParameterError::OutOfRange {
+            of: "sample",
             name: "area of the surface",
             value: candidates.area,
             needs: "large enough to be found between points of a grid",
-        });
+        }
+        .into());
     }
     let spacing = (candidates.area / count as f64).sqrt();
     let locals = vec![Local::even(spacing); sites.len() + candidates.point.len()];

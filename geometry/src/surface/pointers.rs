@@ -77,6 +77,7 @@ passed_on! { &S Box<S> Arc<S> }
 mod tests {
     use super::*;
     use crate::Feature;
+    use crate::InsetError;
 
     /// A surface whose every answer is its own: none is what an interface without it would say.
     #[derive(Debug)]
@@ -126,7 +127,7 @@ mod tests {
         }
 
         fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<2>>, GeometryError> {
-            Err(GeometryError::Vanished { depth })
+            Err(InsetError::Vanished { depth }.into())
         }
 
         fn parts(&self) -> Vec<Arc<dyn Surface<2>>> {
@@ -160,7 +161,10 @@ mod tests {
         assert_eq!(surface.features(), Odd.features());
         assert_eq!(surface.window(), Odd.window());
         let inset = surface.inset(0.5).map(|_| ());
-        assert_eq!(inset, Err(GeometryError::Vanished { depth: 0.5 }));
+        assert_eq!(
+            inset,
+            Err(GeometryError::Inset(InsetError::Vanished { depth: 0.5 }))
+        );
         assert_eq!(surface.parts().len(), 2);
         assert_eq!(surface.sample(20), Ok(vec![HIT; 21]));
         assert_eq!(surface.scatter(20), vec![HIT; 22]);

@@ -6,9 +6,9 @@ mod spread;
 #[cfg(test)]
 mod tests;
 
-use crate::GeometryError;
 use crate::surface::{Closest, Surface};
 use crate::thickness::through;
+use crate::{GeometryError, ParameterError};
 use shares::Shares;
 use sphpack_neighbors::point;
 
@@ -88,7 +88,7 @@ pub struct SurfaceSamples<const D: usize> {
 /// ```
 ///
 /// # Errors
-/// As [`Surface::sample`], and [`GeometryError::BadParameter`] for a spacing that is not positive, a depth that is
+/// As [`Surface::sample`], and [`GeometryError::Parameter`] for a spacing that is not positive, a depth that is
 /// negative, or a depth of 0 without a surface.
 pub fn sample_particles<const D: usize>(
     body: &dyn Surface<D>,
@@ -112,15 +112,16 @@ pub fn sample_thin<const D: usize>(
     depth: f64,
     thin: Thin,
 ) -> Result<SurfaceSamples<D>, GeometryError> {
-    GeometryError::check_positive("sample", "spacing", spacing)?;
-    GeometryError::check_depth(depth)?;
+    ParameterError::check_positive("sample", "spacing", spacing)?;
+    ParameterError::check_depth(depth)?;
     if depth == 0.0 && inset.is_none() {
-        return Err(GeometryError::BadParameter {
-            shape: "sample",
+        return Err(ParameterError::OutOfRange {
+            of: "sample",
             name: "depth",
             value: depth,
             needs: "positive where there is no surface",
-        });
+        }
+        .into());
     }
     let area_each = spacing.powi(D as i32 - 1);
     if let Some(surface) = inset {
