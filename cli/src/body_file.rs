@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
-use sphpack_geometry::{BodyFormat, GeometryError};
+use sphpack_geometry::{BodyFormat, GeometryError, ReadError};
 
 use crate::Error;
 
@@ -41,8 +41,10 @@ pub(crate) fn read<T>(
     build: impl FnOnce(BodyFormat, &[u8]) -> Result<T, GeometryError>,
 ) -> Result<(BodyFormat, T), GeometryError> {
     std::fs::read(path)
-        .map_err(|e| GeometryError::Unreadable {
-            reason: e.to_string(),
+        .map_err(|e| {
+            GeometryError::from(ReadError::Unreadable {
+                reason: e.to_string(),
+            })
         })
         .and_then(|bytes| {
             let format = BodyFormat::detect(&bytes, &extension(path))?;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use sphpack_geometry::GeometryError;
+use sphpack_geometry::{CutError, GeometryError, InsetError, ReadError};
 use sphpack_packing::PackingError;
 
 /// Exit status: everything asked for was done.
@@ -31,7 +31,7 @@ pub enum Error {
         message: String,
     },
     /// The scene can be read, but not packed.
-    #[error("{}: {source}{}", path.display(), more(advice.as_deref()))]
+    #[error("{}: {source}{}{}", path.display(), more(packing_cure(source)), more(advice.as_deref()))]
     Packing {
         /// The scene's file.
         path: PathBuf,
@@ -41,7 +41,7 @@ pub enum Error {
         advice: Option<String>,
     },
     /// A body cannot be built.
-    #[error("{}: body \"{body}\": {source}", path.display())]
+    #[error("{}: body \"{body}\": {}", path.display(), cured(source))]
     Body {
         /// The scene's file.
         path: PathBuf,
@@ -90,7 +90,39 @@ fn place(at: Option<(usize, usize)>) -> String {
     }
 }
 
-/// What follows the cure.
+/// What in a scene, or about a file, helps against what is wrong with a body. Geometry knows neither.
+fn cure(error: &GeometryError) -> Option<&'static str> {
+    match error {
+        GeometryError::Inset(InsetError::Vanished { .. }) => {
+            Some("use a smaller spacing, or surface = \"exact\"")
+        }
+        GeometryError::Inset(InsetError::TooTangled { .. }) => {
+            Some("a smaller spacing or surface = \"exact\" helps too")
+        }
+        GeometryError::Cut(CutError::LostOnGrid { .. }) => Some(
+            "move the bodies so that one passes the other's surface or stays well within it, use a smaller spacing, or give both as meshes, which are cut exactly",
+        ),
+        GeometryError::Read(ReadError::Unreadable { .. }) => {
+            Some("check the path and the permissions")
+        }
+        GeometryError::InFile { error, .. } => cure(error),
+        _ => None,
+    }
+}
+
+/// What is wrong with a body, and the cure.
+pub(crate) fn cured(error: &GeometryError) -> String {
+    format!("{error}{}", more(cure(error)))
+}
+
+fn packing_cure(error: &PackingError) -> Option<&'static str> {
+    match error {
+        PackingError::Surface { source, .. } => cure(source),
+        _ => None,
+    }
+}
+
+/// What follows a message.
 fn more(advice: Option<&str>) -> String {
     advice.map_or_else(String::new, |words| format!("; {words}"))
 }

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 use sphpack_geometry::{
-    BodyFormat, GeometryError, HoleLimit, Mesh, Outline, Sketch, Soup, Surface,
+    BodyFormat, GeometryError, HoleLimit, Mesh, Outline, ParameterError, Sketch, Soup, Surface,
 };
 use sphpack_neighbors::Bounds;
 
 use crate::Error;
 use crate::body_file::{self, body_format};
+use crate::error::cured;
 use crate::findings::{MeshFindings, OutlineFindings};
 
 /// The version of the keys.
@@ -102,12 +103,8 @@ impl Examined {
     /// [`Error::Input`] where the file cannot be read.
     pub fn of(path: &Path, what: &Examine) -> Result<(Self, Option<MendedBody>), Error> {
         let in_file = |source: GeometryError| match source {
-            GeometryError::InFile { path, source } => Error::Input {
-                path: path.into(),
-                at: None,
-                message: source.to_string(),
-            },
-            source => Error::input(path, source.to_string()),
+            GeometryError::InFile { path, error } => Error::input(&path, cured(&error)),
+            source => Error::input(path, cured(&source)),
         };
         // What keeps the file from being opened is said as of any other file.
         if body_format(path)?.dimension() == 2 {
@@ -123,7 +120,7 @@ impl Examined {
             Mend::AsPacking => soup.body_knowing(&report),
             Mend::FillHoles(most) => soup.repaired(HoleLimit::Across(most)).body(),
             Mend::Wrap(cell) => match soup.wrapped(cell) {
-                Err(e @ GeometryError::BadParameter { .. }) => {
+                Err(e @ GeometryError::Parameter(ParameterError::OutOfRange { .. })) => {
                     return Err(Error::Usage(format!("--wrap {cell} does not work: {e}")));
                 }
                 wrapped => wrapped,
@@ -137,7 +134,7 @@ impl Examined {
                 Ok((examined, Some(MendedBody::Mesh(mended.mesh))))
             }
             Err(reason) => {
-                examined.reason = Some(reason.to_string());
+                examined.reason = Some(cured(&reason));
                 Ok((examined, None))
             }
         }
@@ -162,7 +159,7 @@ impl Examined {
                 (examined, Some(MendedBody::Outline(mended.outline)))
             }
             Err(reason) => {
-                examined.reason = Some(reason.to_string());
+                examined.reason = Some(cured(&reason));
                 (examined, None)
             }
         }
@@ -202,7 +199,7 @@ fn extension<S: Serializer>(format: &BodyFormat, to: S) -> Result<S::Ok, S::Erro
 
 /// Measures the thickness at places that stand for equal parts of the surface.
 fn thin<const D: usize>(surface: &dyn Surface<D>, spacing: f64) -> Thin {
-    let probes = surface.strew(PROBES);
+    let probes = surface.scatter(PROBES);
     let mut found = Thin {
         spacing,
         part_of_surface: 0.0,

@@ -1,10 +1,8 @@
 //! Which particle belongs to what, and which are left out because of the bodies' roles.
 
-use std::sync::Arc;
-
 use sphpack_geometry::Surface;
 use sphpack_packing::{Kind, Packed};
-use sphpack_separation::{Labels, SeparationError, Side, separate};
+use sphpack_separation::{Labels, SeparationError, Side, separate_by_flood};
 
 use crate::scene::{Role, Scene};
 
@@ -44,8 +42,8 @@ pub(crate) fn sort<const D: usize>(
     let holders: Vec<u16> = (0..packed.surfaces.len() as u16)
         .filter(|&body| role(body) != Role::Container)
         .collect();
-    let surface = |body: u16| packed.surfaces[usize::from(body)].surface.clone();
-    let surfaces: Vec<Arc<dyn Surface<D>>> = holders.iter().map(|&body| surface(body)).collect();
+    let surface = |body: u16| packed.surfaces[usize::from(body)].surface.as_ref();
+    let surfaces: Vec<&dyn Surface<D>> = holders.iter().map(|&body| surface(body)).collect();
     let inner: Vec<usize> = (0..particles.len())
         .filter(|&i| particles.kind[i] != Kind::Frozen)
         .collect();
@@ -64,7 +62,7 @@ pub(crate) fn sort<const D: usize>(
     } else {
         let positions: Vec<[f64; D]> = inner.iter().map(|&i| particles.position[i]).collect();
         let reach = REACH_OVER_SPACING * packed.spacing;
-        separate(&positions, &on_surface, &surfaces, reach)?.body
+        separate_by_flood(&positions, &on_surface, &surfaces, reach)?.body
     };
 
     let mut labels = Labels {
@@ -130,7 +128,7 @@ fn known<const D: usize>(
     inner: &[usize],
     on_surface: &[Option<u16>],
     placed: &[Option<u16>],
-    surfaces: &[Arc<dyn Surface<D>>],
+    surfaces: &[&dyn Surface<D>],
 ) -> Vec<Option<u16>> {
     let layer = LAYER_OVER_SPACING * packed.spacing;
     let reach = REACH_OVER_SPACING * packed.spacing;

@@ -97,7 +97,7 @@ fn deepest<const D: usize>(
     let count = PER_PARTICLE * a.measure() / spacing.powi(D as i32 - 1);
     let count = count.clamp(500.0, 50_000.0) as usize;
     let mut best: Option<([f64; D], f64)> = None;
-    for at in a.strew(count) {
+    for at in a.scatter(count) {
         // Behind it, so that two bodies that are alike are found too.
         for behind in [0.0, 2.0 * slack] {
             let p = point::add_scaled(at.point, -behind, at.normal);
@@ -150,15 +150,15 @@ mod tests {
         found
     }
 
-    /// The depth that is found, and no other, up to how densely places are strewn.
+    /// The depth that is found, and no other, up to how densely places are scattered.
     #[track_caller]
-    fn check_depth<const D: usize>(bodies: [Body<D>; 2], exact: f64, strewn: f64) {
+    fn check_depth<const D: usize>(bodies: [Body<D>; 2], exact: f64, scattered: f64) {
         let [a, b] = bodies;
         let mirrored = [b.clone(), a.clone()];
         for bodies in [[a, b], mirrored] {
             let depth = check(&bodies, true).map_or(0.0, |found| found.depth);
             assert!(
-                depth < exact + 1e-12 && depth > exact - strewn,
+                depth < exact + 1e-12 && depth > exact - scattered,
                 "{depth}, not {exact}"
             );
         }

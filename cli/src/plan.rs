@@ -2,13 +2,14 @@
 
 use std::time::Instant;
 
-use sphpack_geometry::GeometryError;
+use sphpack_geometry::{GeometryError, MeshError, OutlineError};
 use sphpack_neighbors::{Bounds, Domain, point, words};
 use sphpack_packing::{Body, Estimate, FrozenLayout, Kind, Moves, PackingError, Problem};
 
 use crate::Error;
 use crate::body_file::{ReadBody, body_format};
 use crate::dimension::{Built, Dimension, Space, in_dimension};
+use crate::error::cured;
 use crate::scene::{Fault, Frozen, Role, Scene, Surroundings};
 use crate::{beyond, methods, overlap, precedence, roles, units};
 
@@ -194,19 +195,20 @@ where
             .and_then(|place| Space::<D>::build(&body.shape, file.as_deref(), &place))
             .map_err(|source| match source {
                 // The message names the file already.
-                GeometryError::InFile { path, source } => Error::Input {
-                    message: match *source {
-                        GeometryError::Defective { .. } if D == 2 => {
-                            format!("{source}. `sphpack check {path}` says more")
+                GeometryError::InFile { path, error } => Error::Input {
+                    message: match *error {
+                        GeometryError::Outline(OutlineError::Defective { .. }) => {
+                            format!("{error}. `sphpack check {}` says more", path.display())
                         }
-                        GeometryError::Defective { .. } => {
+                        GeometryError::Mesh(MeshError::Defective { .. }) => {
                             // Four cells to a spacing, in the units of the file.
                             let cell = four_digits(0.25 * scene.spacing / body.scale);
-                            format!("{source}. `sphpack check {path}` says more, and mends what can be mended; `sphpack check {path} --repair OUT.stl --wrap {cell}` makes a new, closed mesh of whatever there is")
+                            let path = path.display();
+                            format!("{error}. `sphpack check {path}` says more, and mends what can be mended; `sphpack check {path} --repair OUT.stl --wrap {cell}` makes a new, closed mesh of whatever there is")
                         }
-                        _ => source.to_string(),
+                        _ => cured(&error),
                     },
-                    path: path.into(),
+                    path,
                     at: None,
                 },
                 source => Error::Body {

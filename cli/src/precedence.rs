@@ -9,6 +9,7 @@ use sphpack_neighbors::{Domain, point};
 
 use crate::Error;
 use crate::dimension::{Built, Cuttable, Dimension, Left, Space};
+use crate::error::cured;
 use crate::overlap;
 use crate::scene::{BodySpec, Role, Scene, Shape};
 
@@ -268,7 +269,8 @@ where
             "nothing is left of body \"{a}\": \"{b}\", whose precedence is higher, has all its room; leave it out, or raise its precedence"
         ))),
         Err(error) => Err(fail(format!(
-            "body \"{b}\" cannot be cut from \"{a}\": {error}"
+            "body \"{b}\" cannot be cut from \"{a}\": {}",
+            cured(&error)
         ))),
     }
 }

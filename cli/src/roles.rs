@@ -24,7 +24,7 @@ fn lie<const D: usize>(a: &dyn Surface<D>, b: &dyn Surface<D>, spacing: f64) -> 
     let slack = TOUCHING_OVER_SPACING * spacing;
     let count = PER_PARTICLE * a.measure() / spacing.powi(D as i32 - 1);
     let (mut is_in, mut is_out) = (false, false);
-    for at in a.strew(count.clamp(200.0, 20_000.0) as usize) {
+    for at in a.scatter(count.clamp(200.0, 20_000.0) as usize) {
         let distance = b.closest(at.point).distance;
         is_in |= distance < -slack;
         is_out |= distance > slack;

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sphpack_geometry::{
-    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, Outline, Placed, Similarity, Sketch, Soup,
-    Surface, Torus,
+    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, Outline, ParameterError, Placed, Similarity,
+    Sketch, Soup, Surface, Torus,
 };
 use sphpack_neighbors::point;
 use sphpack_packing::Method;
@@ -21,12 +21,13 @@ fn shift<const D: usize>(body: &BodySpec) -> [f64; D] {
 }
 
 fn wrong_dimension(shape: &Shape, dimension: usize) -> GeometryError {
-    GeometryError::BadParameter {
-        shape: shape.name(),
+    ParameterError::OutOfRange {
+        of: shape.name(),
         name: "dimension",
         value: shape.dimension().unwrap_or(5 - dimension) as f64,
         needs: "the same as that of the domain and of every other body",
     }
+    .into()
 }
 
 impl Dimension<2> for Space<2> {

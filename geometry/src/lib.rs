@@ -47,7 +47,10 @@ mod winding;
 
 pub use bvh::Bvh;
 pub use continued::{Continued, within_window};
-pub use error::GeometryError;
+pub use error::{
+    CutError, GeometryError, InsetError, LoopSide, MeshError, OutlineError, ParameterError,
+    ReadError,
+};
 pub use level_inset::LevelInset;
 pub use level_set::{LevelSet, cut_on_grid};
 pub use mesh::{EDGE_DEGREES, Mesh};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sphpack_neighbors::Bounds;
 
 use crate::surface::{Closest, Features, Surface};
-use crate::{GeometryError, Similarity};
+use crate::{GeometryError, InsetError, ParameterError, Similarity};
 
 /// Any surface under a [`Similarity`]: queries are carried back, answers forward. Outlines and meshes need it not:
 /// they transform their vertices.
@@ -98,12 +98,14 @@ impl<const D: usize> Surface<D> for Placed<D> {
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         let inner = self
             .surface
             .inset(depth / self.place.scale())
             .map_err(|e| match e {
-                GeometryError::Vanished { .. } => GeometryError::Vanished { depth },
+                GeometryError::Inset(InsetError::Vanished { .. }) => {
+                    InsetError::Vanished { depth }.into()
+                }
                 other => other,
             })?;
         Ok(Arc::new(Self::new(inner, self.place)))
@@ -114,8 +116,8 @@ impl<const D: usize> Surface<D> for Placed<D> {
         Ok(hits.into_iter().map(|hit| self.forward(hit)).collect())
     }
 
-    fn strew(&self, count: usize) -> Vec<Closest<D>> {
-        let hits = self.surface.strew(count);
+    fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+        let hits = self.surface.scatter(count);
         hits.into_iter().map(|hit| self.forward(hit)).collect()
     }
 }

@@ -150,8 +150,8 @@ impl<const D: usize> Surface<D> for Repeated<D> {
         Ok(self.wrapped(self.surface.sample(count)?))
     }
 
-    fn strew(&self, count: usize) -> Vec<Closest<D>> {
-        self.wrapped(self.surface.strew(count))
+    fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+        self.wrapped(self.surface.scatter(count))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use sphpack_neighbors::point;
 
-use crate::GeometryError;
+use crate::{GeometryError, ParameterError};
 
 /// `x → R (s x) + t`: uniform scaling by `s`, then rotation `R`, then translation `t`, about the origin.
 ///
@@ -35,9 +35,9 @@ impl<const D: usize> Similarity<D> {
     /// Scaling about the origin.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless `scale` is positive and finite.
+    /// [`GeometryError::Parameter`] unless `scale` is positive and finite.
     pub fn scaling(scale: f64) -> Result<Self, GeometryError> {
-        GeometryError::check_positive("scale", "factor", scale)?;
+        ParameterError::check_positive("scale", "factor", scale)?;
         Ok(Self {
             scale,
             ..Self::identity()
@@ -47,9 +47,9 @@ impl<const D: usize> Similarity<D> {
     /// Translation by `shift`, scene units.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless `shift` is finite.
+    /// [`GeometryError::Parameter`] unless `shift` is finite.
     pub fn translation(shift: [f64; D]) -> Result<Self, GeometryError> {
-        GeometryError::check_finite("translate", "shift", shift)?;
+        ParameterError::check_finite("translate", "shift", shift)?;
         Ok(Self {
             translation: shift,
             ..Self::identity()
@@ -103,9 +103,9 @@ impl<const D: usize> Similarity<D> {
         rotation: [[f64; D]; D],
         translation: [f64; D],
     ) -> Result<Self, GeometryError> {
-        GeometryError::check_positive("scale", "factor", scale)?;
-        GeometryError::check_finite("rotate", "degrees", [degrees])?;
-        GeometryError::check_finite("translate", "shift", translation)?;
+        ParameterError::check_positive("scale", "factor", scale)?;
+        ParameterError::check_finite("rotate", "degrees", [degrees])?;
+        ParameterError::check_finite("translate", "shift", translation)?;
         Ok(Self {
             scale,
             rotation,
@@ -118,7 +118,7 @@ impl Similarity<2> {
     /// Scale, then rotate counter-clockwise by `degrees`, then translate (scene units).
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] where a number is not finite or the scale not positive.
+    /// [`GeometryError::Parameter`] where a number is not finite or the scale not positive.
     pub fn new(scale: f64, degrees: f64, translation: [f64; 2]) -> Result<Self, GeometryError> {
         let (sin, cos) = sin_cos_degrees(degrees);
         Self::checked(scale, degrees, [[cos, -sin], [sin, cos]], translation)
@@ -129,7 +129,7 @@ impl Similarity<3> {
     /// Scale, then rotate about `axis` by `degrees` (right-hand rule), then translate (scene units).
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] where a number is not finite, the scale not positive, or the axis zero.
+    /// [`GeometryError::Parameter`] where a number is not finite, the scale not positive, or the axis zero.
     pub fn new(
         scale: f64,
         axis: [f64; 3],
@@ -137,12 +137,13 @@ impl Similarity<3> {
         translation: [f64; 3],
     ) -> Result<Self, GeometryError> {
         let Some([x, y, z]) = point::unit(axis) else {
-            return Err(GeometryError::BadParameter {
-                shape: "rotate",
+            return Err(ParameterError::OutOfRange {
+                of: "rotate",
                 name: "length of axis",
                 value: point::norm(axis),
                 needs: "positive and finite",
-            });
+            }
+            .into());
         };
         let (s, c) = sin_cos_degrees(degrees);
         let v = 1.0 - c;

@@ -101,7 +101,7 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
     /// φ = −depth of the signed distance φ.
     ///
     /// # Errors
-    /// [`GeometryError::Vanished`] where nothing of the body is left.
+    /// [`InsetError::Vanished`](crate::InsetError::Vanished) where nothing of the body is left.
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError>;
 
     /// The connected parts of the body, each with the holes in it and of the kind that this surface is; together they are
@@ -127,19 +127,19 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
     /// the inset of it 1.2 s.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] in other dimensions than 2 and 3, and where no area is found.
+    /// [`GeometryError::Parameter`] in other dimensions than 2 and 3, and where no area is found.
     fn sample(&self, count: usize) -> Result<Vec<Closest<D>>, GeometryError> {
         crate::sample::evenly(self, count)
     }
 
-    /// `count` points strewn over the surface by area: each stands for the same part of it, but they are not spread
+    /// `count` points scattered over the surface by area: each stands for the same part of it, but they are not spread
     /// evenly. Each is a [`Closest`] with distance 0 and the normal of the side it is on, also next to an edge.
     ///
     /// Much cheaper than [`Surface::sample`]: exact and O(count) on outlines and meshes, some dozen queries per point
     /// on others. There, sides nearer to each other than 1/30 of the mean distance between the points may be
     /// confused. Empty in other dimensions than 2 and 3, and where no area is found.
-    fn strew(&self, count: usize) -> Vec<Closest<D>> {
-        crate::sample::strewn(self, count)
+    fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+        crate::sample::scattered(self, count)
     }
 
     /// [`Surface::closest_within`] for many points, in parallel; entry `i` belongs to `points[i]`.

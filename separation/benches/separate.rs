@@ -1,10 +1,8 @@
 //! Separating a lattice of 40,000 points by a starfish: flood beside inside tests.
 
-use std::sync::Arc;
-
 use criterion::{Criterion, criterion_group, criterion_main};
 use sphpack_geometry::{Outline, Surface};
-use sphpack_separation::{separate, separate_by_inside_tests};
+use sphpack_separation::{separate, separate_by_flood};
 
 fn all(c: &mut Criterion) {
     let n = 200;
@@ -13,12 +11,12 @@ fn all(c: &mut Criterion) {
         .collect();
     let nobody = vec![None; points.len()];
     let star = Outline::starfish([0.0; 2], 0.5, 0.25, 5).expect("a sound starfish");
-    let surfaces: [Arc<dyn Surface<2>>; 1] = [Arc::new(star)];
+    let bodies: [&dyn Surface<2>; 1] = [&star];
     c.bench_function("flood", |b| {
-        b.iter(|| separate(&points, &nobody, &surfaces, 0.02));
+        b.iter(|| separate_by_flood(&points, &nobody, &bodies, 0.02));
     });
     c.bench_function("inside tests", |b| {
-        b.iter(|| separate_by_inside_tests(&points, &nobody, &surfaces));
+        b.iter(|| separate(&points, &bodies));
     });
 }
 

@@ -1,7 +1,5 @@
 //! The SPH procedure of Negi & Ramachandran (2021), section 3.1.7.
 
-use std::sync::Arc;
-
 use rayon::prelude::*;
 use sphpack_geometry::Surface;
 use sphpack_neighbors::KdTree;
@@ -16,24 +14,23 @@ use crate::labels::{Labels, SeparationError, check, combine};
 /// sides, so the flood makes no mistakes and its order does not matter; it goes layer by layer, by ascending index.
 /// Particles that no neighbour reaches are asked about one by one. `reach` of about two spacings is a good choice.
 ///
-/// `on_surface[i]` names the surface that particle `i` sits on, whose body it belongs to. O(n log n) for each surface.
+/// `on_surface[i]` is the body on whose surface particle `i` sits, which it then belongs to. The labels are those of
+/// [`separate_with_on_surface`](crate::separate_with_on_surface). O(n log n) for each body.
 ///
 /// # Errors
 /// A [`SeparationError`] for slices that do not fit together, positions that are not finite, or a senseless reach.
-pub fn separate<const D: usize>(
+pub fn separate_by_flood<const D: usize>(
     positions: &[[f64; D]],
     on_surface: &[Option<u16>],
-    surfaces: &[Arc<dyn Surface<D>>],
+    bodies: &[&dyn Surface<D>],
     reach: f64,
 ) -> Result<Labels, SeparationError> {
-    check(positions, on_surface, surfaces.len())?;
+    check(positions, on_surface, bodies.len())?;
     if !(reach > 0.0 && reach.is_finite()) {
         return Err(SeparationError::BadReach(reach));
     }
     let tree = KdTree::new(positions).map_err(|_| SeparationError::NotFinite { index: 0 })?;
-    let held = surfaces
-        .iter()
-        .map(|surface| flood(positions, surface.as_ref(), &tree, reach));
+    let held = (bodies.iter()).map(|body| flood(positions, *body, &tree, reach));
     Ok(combine(on_surface, held))
 }
 

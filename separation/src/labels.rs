@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::str::FromStr;
-use std::sync::Arc;
 
 use sphpack_geometry::Surface;
 
@@ -75,16 +74,14 @@ pub struct Labels {
 #[non_exhaustive]
 pub enum SeparationError {
     /// A particle has no place.
-    #[error(
-        "particle {index} has a coordinate that is not a finite number; repair the particle file"
-    )]
+    #[error("particle {index} has a coordinate that is not a finite number")]
     NotFinite {
         /// The first such particle.
         index: usize,
     },
     /// Slices of different lengths.
     #[error(
-        "{positions} positions but {on_surface} entries that say which surface they are on; give one for each"
+        "{positions} positions but {on_surface} entries that say on which body's surface they are; give one for each"
     )]
     LengthMismatch {
         /// Number of positions.
@@ -93,15 +90,20 @@ pub enum SeparationError {
         on_surface: usize,
     },
     /// A particle is on a surface that is not there.
-    #[error("particle {index} is said to be on surface {surface}, but there are only {surfaces}")]
-    UnknownSurface {
+    #[error(
+        "particle {index} is said to be on the surface of body {body}, but there are only {bodies} bodies"
+    )]
+    UnknownBody {
         /// The particle.
         index: usize,
-        /// The surface it names.
-        surface: u16,
+        /// The body it names, counted from 0.
+        body: u16,
         /// How many there are.
-        surfaces: usize,
+        bodies: usize,
     },
+    /// More bodies than a label can name.
+    #[error("{0} bodies are more than labels have numbers for; there may be {MAX_BODIES}")]
+    TooManyBodies(usize),
     /// The reach is no length.
     #[error(
         "the reach is {0}; it must be a positive, finite length of about two particle spacings"
@@ -109,10 +111,13 @@ pub enum SeparationError {
     BadReach(f64),
 }
 
+/// Labels number bodies with 16 bits.
+const MAX_BODIES: usize = 1 << 16;
+
 pub(crate) fn check<const D: usize>(
     positions: &[[f64; D]],
     on_surface: &[Option<u16>],
-    surfaces: usize,
+    bodies: usize,
 ) -> Result<(), SeparationError> {
     if positions.len() != on_surface.len() {
         return Err(SeparationError::LengthMismatch {
@@ -120,20 +125,23 @@ pub(crate) fn check<const D: usize>(
             on_surface: on_surface.len(),
         });
     }
+    if bodies > MAX_BODIES {
+        return Err(SeparationError::TooManyBodies(bodies));
+    }
     if let Some(index) = positions
         .iter()
         .position(|p| p.iter().any(|x| !x.is_finite()))
     {
         return Err(SeparationError::NotFinite { index });
     }
-    for (index, surface) in on_surface.iter().enumerate() {
-        if let Some(surface) = *surface
-            && usize::from(surface) >= surfaces
+    for (index, body) in on_surface.iter().enumerate() {
+        if let Some(body) = *body
+            && usize::from(body) >= bodies
         {
-            return Err(SeparationError::UnknownSurface {
+            return Err(SeparationError::UnknownBody {
                 index,
-                surface,
-                surfaces,
+                body,
+                bodies,
             });
         }
     }
@@ -143,7 +151,7 @@ pub(crate) fn check<const D: usize>(
 /// Labels from which particles each body holds; `on_surface` has the last word. The first body wins.
 pub(crate) fn combine(on_surface: &[Option<u16>], held: impl Iterator<Item = Vec<bool>>) -> Labels {
     let mut body: Vec<Option<u16>> = vec![None; on_surface.len()];
-    for (inside, number) in held.zip(0_u16..) {
+    for (inside, number) in held.zip(0..=u16::MAX) {
         for (label, inside) in body.iter_mut().zip(inside) {
             if inside && label.is_none() {
                 *label = Some(number);
@@ -166,35 +174,52 @@ pub(crate) fn combine(on_surface: &[Option<u16>], held: impl Iterator<Item = Vec
     Labels { side, body }
 }
 
-/// Asks every surface about every particle. `on_surface[i]` names the surface that particle `i` sits on, whose body it
-/// belongs to. O(n · cost of an inside test), parallel.
+/// Gives every particle to the first body that holds it, else to the fluid. O(n · cost of an inside test) for each body,
+/// parallel.
 ///
 /// ```
-/// use std::sync::Arc;
-/// use sphpack_geometry::{Cuboid, Surface};
-/// use sphpack_separation::separate_by_inside_tests;
+/// use sphpack_geometry::Outline;
+/// use sphpack_separation::separate;
 ///
-/// let left: Arc<dyn Surface<3>> = Arc::new(Cuboid::new([0.0; 3], [1.0; 3])?);
-/// let right: Arc<dyn Surface<3>> = Arc::new(Cuboid::new([1.0, 0.0, 0.0], [2.0, 1.0, 1.0])?);
+/// let wing = Outline::naca("2412", 1.0)?;
+/// let points = [[0.5, 0.0], [0.5, 0.5]];
+/// assert_eq!(separate(&points, &[&wing])?.body, [Some(0), None]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A [`SeparationError`] for positions that are not finite, or too many bodies.
+pub fn separate<const D: usize>(
+    positions: &[[f64; D]],
+    bodies: &[&dyn Surface<D>],
+) -> Result<Labels, SeparationError> {
+    separate_with_on_surface(positions, &vec![None; positions.len()], bodies)
+}
+
+/// [`separate`] where some particles are known to sit on a surface, and rounding would tell their side:
+/// `on_surface[i]` is the body on whose surface particle `i` sits, which it then belongs to.
+///
+/// ```
+/// use sphpack_geometry::Cuboid;
+/// use sphpack_separation::separate_with_on_surface;
+///
+/// let left = Cuboid::new([0.0; 3], [1.0; 3])?;
+/// let right = Cuboid::new([1.0, 0.0, 0.0], [2.0, 1.0, 1.0])?;
 /// let points = [[0.5; 3], [1.0, 0.5, 0.5], [1.5, 0.5, 0.5]];
-/// // The second point sits on the surface of the second body, so it belongs to that.
-/// let labels = separate_by_inside_tests(&points, &[None, Some(1), None], &[left, right])?;
+/// let on_surface = [None, Some(1), None];
+/// let labels = separate_with_on_surface(&points, &on_surface, &[&left, &right])?;
 /// assert_eq!(labels.body, [Some(0), Some(1), Some(1)]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// A [`SeparationError`] for slices that do not fit together or positions that are not finite.
-pub fn separate_by_inside_tests<const D: usize>(
+/// A [`SeparationError`] for slices that do not fit together, positions that are not finite, or too many bodies.
+pub fn separate_with_on_surface<const D: usize>(
     positions: &[[f64; D]],
     on_surface: &[Option<u16>],
-    surfaces: &[Arc<dyn Surface<D>>],
+    bodies: &[&dyn Surface<D>],
 ) -> Result<Labels, SeparationError> {
-    check(positions, on_surface, surfaces.len())?;
-    Ok(combine(
-        on_surface,
-        surfaces
-            .iter()
-            .map(|surface| surface.inside_batch(positions)),
-    ))
+    check(positions, on_surface, bodies.len())?;
+    let held = (bodies.iter()).map(|body| body.inside_batch(positions));
+    Ok(combine(on_surface, held))
 }

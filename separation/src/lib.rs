@@ -8,5 +8,5 @@ mod labels;
 #[cfg(test)]
 mod tests;
 
-pub use flood::separate;
-pub use labels::{Labels, SeparationError, Side, UnknownSide, separate_by_inside_tests};
+pub use flood::separate_by_flood;
+pub use labels::{Labels, SeparationError, Side, UnknownSide, separate, separate_with_on_surface};

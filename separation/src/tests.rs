@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use sphpack_geometry::{Ball, Cuboid, Ellipsoid, Outline, Surface, Torus};
 use sphpack_neighbors::random::Congruential;
 
-use crate::{SeparationError, Side, separate, separate_by_inside_tests};
+use crate::{SeparationError, Side, separate, separate_by_flood, separate_with_on_surface};
 
 fn bodies_2d() -> Vec<Arc<dyn Surface<2>>> {
     let wedge = |degrees: f64| {
@@ -58,9 +58,9 @@ fn check<const D: usize>(
 ) -> Result<(), TestCaseError> {
     let nobody = vec![None; points.len()];
     for body in bodies {
-        let one = std::slice::from_ref(body);
-        let flood = separate(points, &nobody, one, reach).expect("sound input");
-        let asked = separate_by_inside_tests(points, &nobody, one).expect("sound input");
+        let one: [&dyn Surface<D>; 1] = [body];
+        let flood = separate_by_flood(points, &nobody, &one, reach).expect("sound input");
+        let asked = separate(points, &one).expect("sound input");
         for i in 0..points.len() {
             let on_it = body.closest(points[i]).distance.abs() < 1e-12;
             prop_assert!(
@@ -86,38 +86,40 @@ proptest! {
 
 #[test]
 fn the_first_of_overlapping_bodies_wins_and_surfaces_have_the_last_word() {
-    let at =
-        |x: f64| Arc::new(Ball::new([x, 0.0], 0.5).expect("a sound ball")) as Arc<dyn Surface<2>>;
-    let bodies = [at(0.0), at(0.6)];
+    let at = |x: f64| Ball::new([x, 0.0], 0.5).expect("a sound ball");
+    let bodies: [&dyn Surface<2>; 2] = [&at(0.0), &at(0.6)];
     let points = [[0.3, 0.0], [0.9, 0.0], [-0.3, 0.0], [0.0, 0.9]];
-    let labels = separate(&points, &[None; 4], &bodies, 0.3).expect("sound input");
-    assert_eq!(labels.body, [Some(0), Some(1), Some(0), None]);
-    let labels =
-        separate(&points, &[Some(1), None, None, Some(1)], &bodies, 0.3).expect("sound input");
-    assert_eq!(labels.body, [Some(1), Some(1), Some(0), Some(1)]);
+    let first = [Some(0), Some(1), Some(0), None];
+    let labels = separate(&points, &bodies).expect("sound input");
+    assert_eq!(labels.body, first);
+    let labels = separate_by_flood(&points, &[None; 4], &bodies, 0.3).expect("sound input");
+    assert_eq!(labels.body, first);
+    let on_surface = [Some(1), None, None, Some(1)];
+    let last_word = [Some(1), Some(1), Some(0), Some(1)];
+    let labels = separate_by_flood(&points, &on_surface, &bodies, 0.3).expect("sound input");
+    assert_eq!(labels.body, last_word);
+    let labels = separate_with_on_surface(&points, &on_surface, &bodies).expect("sound input");
+    assert_eq!(labels.body, last_word);
 }
 
 #[test]
 fn lonely_particles_are_asked_about() {
-    let bodies = [Arc::new(Ball::new([0.0; 2], 1.0).expect("a sound ball")) as Arc<dyn Surface<2>>];
-    let labels =
-        separate(&[[0.0, 0.0], [9.0, 9.0]], &[None; 2], &bodies, 0.01).expect("sound input");
-    assert_eq!(labels.side, [Side::Solid, Side::Fluid]);
-    assert!(
-        separate::<2>(&[], &[], &bodies, 0.1)
-            .expect("sound input")
-            .side
-            .is_empty()
-    );
-    let free = separate(&[[0.0, 0.0]], &[None], &[], 0.1).expect("sound input");
-    assert_eq!(free.side, [Side::Fluid]);
+    let ball = Ball::new([0.0; 2], 1.0).expect("a sound ball");
+    let flood = |points: &[[f64; 2]], bodies: &[&dyn Surface<2>]| {
+        let nobody = vec![None; points.len()];
+        (separate_by_flood(points, &nobody, bodies, 0.01).expect("sound input")).side
+    };
+    let both = flood(&[[0.0, 0.0], [9.0, 9.0]], &[&ball]);
+    assert_eq!(both, [Side::Solid, Side::Fluid]);
+    assert!(flood(&[], &[&ball]).is_empty());
+    assert_eq!(flood(&[[0.0, 0.0]], &[]), [Side::Fluid]);
 }
 
 #[test]
 fn senseless_input_is_refused() {
-    let bodies = [Arc::new(Ball::new([0.0; 2], 1.0).expect("a sound ball")) as Arc<dyn Surface<2>>];
+    let ball = Ball::new([0.0; 2], 1.0).expect("a sound ball");
     let refused = |points: &[[f64; 2]], on: &[Option<u16>], reach: f64| {
-        separate(points, on, &bodies, reach).expect_err("refused")
+        separate_by_flood(points, on, &[&ball], reach).expect_err("refused")
     };
     assert!(matches!(
         refused(&[[f64::NAN, 0.0]], &[None], 0.1),
@@ -129,10 +131,15 @@ fn senseless_input_is_refused() {
     ));
     assert!(matches!(
         refused(&[[0.0, 0.0]], &[Some(3)], 0.1),
-        SeparationError::UnknownSurface { surface: 3, .. }
+        SeparationError::UnknownBody { body: 3, .. }
     ));
     assert!(matches!(
         refused(&[[0.0, 0.0]], &[None], 0.0),
         SeparationError::BadReach(_)
+    ));
+    let many: Vec<&dyn Surface<2>> = vec![&ball; (1 << 16) + 1];
+    assert!(matches!(
+        separate(&[], &many),
+        Err(SeparationError::TooManyBodies(65_537))
     ));
 }

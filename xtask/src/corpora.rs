@@ -192,7 +192,7 @@ fn areas(path: &Path) -> Result<BTreeMap<String, f64>, String> {
 
 fn body(path: &Path) -> Result<Outline, String> {
     let reason = |error: GeometryError| match error {
-        GeometryError::InFile { source, .. } => source.to_string(),
+        GeometryError::InFile { error, .. } => error.to_string(),
         other => other.to_string(),
     };
     let mended = Sketch::read(path).and_then(|sketch| sketch.body());

@@ -12,11 +12,11 @@ use self::contents::pieces_in;
 use self::moved::Moved;
 use super::features::features_in;
 use super::{Continued, Reach, Whole, into, moved_by, parts_by_images, slack, snapped};
-use crate::GeometryError;
 use crate::mesh::{Mesh, triangle};
 use crate::sample::{Candidates, spread};
 use crate::soup::Soup;
 use crate::surface::{Closest, Features, Surface};
+use crate::{GeometryError, ParameterError};
 
 /// A mesh and its images are joined where their volume is right to this part.
 const VOLUME_WITHIN: f64 = 1e-5;
@@ -36,7 +36,7 @@ impl Mesh {
     /// one, nor is as long as a period. O(n log n) for n triangles and their images.
     ///
     /// # Errors
-    /// [`GeometryError::Defective`] where the body and its images cannot be joined.
+    /// [`MeshError::Defective`](crate::MeshError::Defective) where the body and its images cannot be joined.
     pub fn continued(&self, domain: &Domain<3>) -> Result<Option<Continued<3>>, GeometryError> {
         let (shift, bounds) = into(self.bounds(), domain);
         let reach = [0, 1, 2].map(|axis| Reach::of(&bounds, domain, axis));
@@ -205,7 +205,7 @@ impl Whole<3> for Mesh {
     }
 
     fn moved_in(&self, depth: f64) -> Result<Arc<dyn Whole<3>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         let whole = Arc::new(self.clone());
         if depth == 0.0 {
             return Ok(whole);
@@ -240,7 +240,7 @@ impl Whole<3> for Mesh {
         features_in(self.features(), domain)
     }
 
-    fn strewn_in(&self, domain: &Domain<3>, count: usize) -> Candidates<3> {
+    fn scattered_in(&self, domain: &Domain<3>, count: usize) -> Candidates<3> {
         let pieces = pieces_in(self, domain);
         let mut across = 0.5;
         Candidates::systematic(
@@ -261,7 +261,7 @@ impl Whole<3> for Mesh {
         surface: &Continued<3>,
         count: usize,
     ) -> Result<Vec<Closest<3>>, GeometryError> {
-        let strew = |_, wanted| self.strewn_in(&surface.domain, wanted);
-        spread(surface, count, &|p| surface.closest(p), strew)
+        let scatter = |_, wanted| self.scattered_in(&surface.domain, wanted);
+        spread(surface, count, &|p| surface.closest(p), scatter)
     }
 }

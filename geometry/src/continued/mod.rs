@@ -12,9 +12,9 @@ use std::sync::Arc;
 
 use sphpack_neighbors::{Bounds, Domain, Odometer, point};
 
-use crate::GeometryError;
 use crate::sample::Candidates;
 use crate::surface::{Closest, Features, Surface};
+use crate::{GeometryError, InsetError};
 
 /// Coordinates within this of a box's side, in parts of the greatest coordinate or size, are on it: single precision.
 const FLUSH: f64 = 1e-6;
@@ -61,8 +61,8 @@ pub(crate) trait Whole<const D: usize>: Surface<D> {
     /// [`Surface::features`] within the box.
     fn features_in(&self, domain: &Domain<D>) -> Features<D>;
 
-    /// [`Surface::strew`] within the box.
-    fn strewn_in(&self, domain: &Domain<D>, count: usize) -> Candidates<D>;
+    /// [`Surface::scatter`] within the box.
+    fn scattered_in(&self, domain: &Domain<D>, count: usize) -> Candidates<D>;
 
     /// [`Surface::sample`] within the box, of which `surface` is the part.
     fn sample_in(
@@ -164,7 +164,7 @@ impl<const D: usize> Surface<D> for Continued<D> {
         if moved.volume > 0.0 {
             Ok(Arc::new(moved))
         } else {
-            Err(GeometryError::Vanished { depth })
+            Err(InsetError::Vanished { depth }.into())
         }
     }
 
@@ -172,8 +172,8 @@ impl<const D: usize> Surface<D> for Continued<D> {
         self.whole.sample_in(self, count)
     }
 
-    fn strew(&self, count: usize) -> Vec<Closest<D>> {
-        self.whole.strewn_in(&self.domain, count).hits()
+    fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+        self.whole.scattered_in(&self.domain, count).hits()
     }
 }
 

@@ -6,12 +6,12 @@ use sphpack_neighbors::{Bounds, Domain, point};
 
 use super::window::{holds, part_of_way};
 use super::{Continued, Reach, Whole, into, moved_by, parts_by_images, slack, snapped};
-use crate::GeometryError;
 use crate::outline::Outline;
 use crate::outline::booleans::{Filled, resolved};
 use crate::sample::{Candidates, Ring, along};
 use crate::segment::Segment;
 use crate::surface::{Closest, Features, Surface};
+use crate::{GeometryError, ParameterError};
 
 type Loop = Vec<[f64; 2]>;
 
@@ -233,7 +233,7 @@ impl Whole<2> for Outline {
     }
 
     fn moved_in(&self, depth: f64) -> Result<Arc<dyn Whole<2>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         Ok(Arc::new(self.offset(-depth)?))
     }
 
@@ -259,7 +259,7 @@ impl Whole<2> for Outline {
         features
     }
 
-    fn strewn_in(&self, domain: &Domain<2>, count: usize) -> Candidates<2> {
+    fn scattered_in(&self, domain: &Domain<2>, count: usize) -> Candidates<2> {
         let place = |side: &Segment, before: f64| {
             (
                 point::add_scaled(side.start, before, side.edge),

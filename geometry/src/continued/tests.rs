@@ -44,7 +44,7 @@ fn is_held<const D: usize>(body: &dyn Surface<D>, domain: &Domain<D>, p: [f64; D
     })
 }
 
-/// Places of the box, evenly strewn.
+/// Places of the box, evenly scattered.
 fn places<const D: usize>(domain: &Domain<D>, count: usize) -> impl Iterator<Item = [f64; D]> {
     let (min, size) = (domain.bounds.min, domain.bounds.size());
     let steps = [

@@ -11,7 +11,7 @@ use std::sync::{Arc, OnceLock};
 use sphpack_neighbors::{Bounds, point};
 
 use crate::surface::{Closest, Feature, Features, Surface};
-use crate::{CORNER_DEGREES, GeometryError};
+use crate::{CORNER_DEGREES, GeometryError, InsetError, ParameterError};
 pub(crate) use contents::cut;
 use planes::{Plane, Planes};
 
@@ -67,12 +67,12 @@ impl<const D: usize> LevelInset<D> {
     /// asked for: within 10⁻³ for bodies that are smooth on the scale of 1/64 of their size, 10⁻² with sharp edges.
     ///
     /// # Errors
-    /// [`GeometryError::Vanished`] where no point deeper than `depth` is found, [`GeometryError::BadParameter`] for a
+    /// [`InsetError::Vanished`] where no point deeper than `depth` is found, [`GeometryError::Parameter`] for a
     /// depth that is negative or not finite.
     pub fn new(surface: Arc<dyn Surface<D>>, depth: f64) -> Result<Self, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         if !contents::reaches(surface.as_ref(), depth) {
-            return Err(GeometryError::Vanished { depth });
+            return Err(InsetError::Vanished { depth }.into());
         }
         let features = surface.features();
         Ok(Self {
@@ -320,10 +320,10 @@ impl<const D: usize> Surface<D> for LevelInset<D> {
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         Self::new(self.surface.clone(), self.depth + depth)
             .map(|inset| Arc::new(inset) as Arc<dyn Surface<D>>)
-            .map_err(|_| GeometryError::Vanished { depth })
+            .map_err(|_| InsetError::Vanished { depth }.into())
     }
 
     fn sample(&self, count: usize) -> Result<Vec<Closest<D>>, GeometryError> {

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use sphpack_neighbors::point;
 
 use super::*;
-use crate::{Ball, Cuboid, Ellipsoid};
+use crate::{Ball, Cuboid, Ellipsoid, InsetError, ParameterError};
 
 fn cube<const D: usize>() -> Arc<dyn Surface<D>> {
     Arc::new(Cuboid::new([-1.0; D], [1.0; D]).unwrap())
@@ -135,14 +135,14 @@ fn contents_and_features() {
     assert!((twice.closest([2.0, 0.0, 0.0]).distance - 1.5).abs() < 1e-9);
     assert!(matches!(
         level.inset(0.8),
-        Err(GeometryError::Vanished { .. })
+        Err(GeometryError::Inset(InsetError::Vanished { .. }))
     ));
     assert!(matches!(
         LevelInset::new(cube::<2>(), 1.0),
-        Err(GeometryError::Vanished { .. })
+        Err(GeometryError::Inset(InsetError::Vanished { .. }))
     ));
     assert!(matches!(
         LevelInset::new(cube::<2>(), f64::NAN),
-        Err(GeometryError::BadParameter { .. })
+        Err(GeometryError::Parameter(ParameterError::OutOfRange { .. }))
     ));
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sphpack_neighbors::{Bounds, place_of, point};
 
 use super::field::{Boolean, Field};
-use crate::GeometryError;
+use crate::{GeometryError, ParameterError};
 
 /// Nodes of a block along each axis.
 const SIDE: i32 = 8;
@@ -275,10 +275,11 @@ impl<const D: usize> Blocks<D> {
 }
 
 fn too_fine(cell: f64) -> GeometryError {
-    GeometryError::BadParameter {
-        shape: "level set",
+    ParameterError::OutOfRange {
+        of: "level set",
         name: "cell",
         value: cell,
         needs: "larger, so that the grid near the surface takes less than half a gibibyte",
     }
+    .into()
 }

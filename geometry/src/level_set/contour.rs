@@ -36,7 +36,7 @@ impl LevelSet<3> {
     /// triangle, in parallel.
     ///
     /// # Errors
-    /// What [`Mesh::new`] finds: [`GeometryError::NoVolume`] where next to nothing is inside.
+    /// What [`Mesh::new`] finds: [`MeshError::NoVolume`](crate::MeshError::NoVolume) where next to nothing is inside.
     pub fn mesh(&self) -> Result<Option<Mesh>, GeometryError> {
         if self.is_empty() {
             return Ok(None);

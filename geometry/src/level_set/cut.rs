@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::LevelSet;
-use crate::{GeometryError, Mesh, Surface};
+use crate::{CutError, GeometryError, Mesh, MeshError, Surface};
 
 /// How often the cells are halved.
 const HALVINGS: i32 = 3;
@@ -29,7 +29,7 @@ const LOST: f64 = 1e-3;
 /// ```
 ///
 /// # Errors
-/// [`GeometryError::LostOnGrid`] where the finest cells still lose more, and what [`LevelSet::of`] finds wrong with `cell`.
+/// [`CutError::LostOnGrid`] where the finest cells still lose more, and what [`LevelSet::of`] finds wrong with `cell`.
 pub fn cut_on_grid(
     lower: Arc<dyn Surface<3>>,
     higher: Arc<dyn Surface<3>>,
@@ -55,16 +55,17 @@ pub fn cut_on_grid(
             return Ok(left);
         }
     }
-    Err(GeometryError::LostOnGrid {
+    Err(CutError::LostOnGrid {
         cell: size,
         volume: missing,
-    })
+    }
+    .into())
 }
 
 /// The mesh of a set; `None` where it holds next to nothing.
 fn mesh(set: &LevelSet<3>) -> Result<Option<Mesh>, GeometryError> {
     match set.mesh() {
-        Err(GeometryError::NoVolume { .. }) => Ok(None),
+        Err(GeometryError::Mesh(MeshError::NoVolume { .. })) => Ok(None),
         found => found,
     }
 }

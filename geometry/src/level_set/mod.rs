@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use sphpack_neighbors::Bounds;
 
-use crate::{GeometryError, Surface};
+use crate::{GeometryError, ParameterError, Surface};
 use blocks::Blocks;
 use field::{Boolean, Both, Exact};
 
@@ -61,7 +61,7 @@ impl<const D: usize> LevelSet<D> {
     /// The level set of `surface` on the grid with cells of size `cell` (scene units).
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless `cell` is positive and finite, and where it is so small that the grid
+    /// [`GeometryError::Parameter`] unless `cell` is positive and finite, and where it is so small that the grid
     /// would take more than half a gibibyte.
     pub fn of(surface: Arc<dyn Surface<D>>, cell: f64) -> Result<Self, GeometryError> {
         let bounds = surface.bounds();
@@ -88,7 +88,7 @@ impl<const D: usize> LevelSet<D> {
     }
 
     fn sizes(cell: f64) -> Result<(f64, f64), GeometryError> {
-        let cell = GeometryError::check_positive("level set", "cell", cell)?;
+        let cell = ParameterError::check_positive("level set", "cell", cell)?;
         Ok((cell, BAND_CELLS * cell))
     }
 
@@ -150,7 +150,7 @@ impl<const D: usize> LevelSet<D> {
     /// What either body holds: the lesser distance.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] where the cells are not equal.
+    /// [`GeometryError::Parameter`] where the cells are not equal.
     pub fn union(&self, other: &Self) -> Result<Self, GeometryError> {
         self.with(other, Boolean::Union)
     }
@@ -158,7 +158,7 @@ impl<const D: usize> LevelSet<D> {
     /// What both bodies hold: the greater distance.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] where the cells are not equal.
+    /// [`GeometryError::Parameter`] where the cells are not equal.
     pub fn intersection(&self, other: &Self) -> Result<Self, GeometryError> {
         self.with(other, Boolean::Intersection)
     }
@@ -167,19 +167,20 @@ impl<const D: usize> LevelSet<D> {
     /// other.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] where the cells are not equal.
+    /// [`GeometryError::Parameter`] where the cells are not equal.
     pub fn minus(&self, other: &Self) -> Result<Self, GeometryError> {
         self.with(other, Boolean::Minus)
     }
 
     fn with(&self, other: &Self, how: Boolean) -> Result<Self, GeometryError> {
         if self.cell() != other.cell() {
-            return Err(GeometryError::BadParameter {
-                shape: "level set",
+            return Err(ParameterError::OutOfRange {
+                of: "level set",
                 name: "cell",
                 value: other.cell(),
                 needs: "the same for both bodies",
-            });
+            }
+            .into());
         }
         Ok(Self {
             blocks: self.blocks.with(&other.blocks, how),

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::{Mesh, topology, triangle};
-use crate::GeometryError;
 use crate::level_inset::LevelInset;
 use crate::surface::Surface;
+use crate::{GeometryError, ParameterError};
 
 /// Where some edge turns by more than this (radians), faces lie nearly on each other, and the expansion says nothing.
 const FOLD: f64 = 2.8;
@@ -24,7 +24,7 @@ const FLAT: f64 = 0.05;
 /// polyhedra with three edges per corner while no face vanishes, and for smooth bodies as far as the mesh resolves
 /// them; depth ≪ size of what is not smooth otherwise.
 pub(super) fn inset(mesh: &Mesh, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
-    GeometryError::check_depth(depth)?;
+    ParameterError::check_depth(depth)?;
     let body: Arc<dyn Surface<3>> = Arc::new(mesh.clone());
     if depth == 0.0 {
         return Ok(body);

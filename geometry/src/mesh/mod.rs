@@ -4,7 +4,7 @@ mod features;
 pub(crate) mod inset;
 mod normals;
 mod pieces;
-mod strew;
+mod scatter;
 mod surface;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -17,7 +17,7 @@ use std::sync::{Arc, OnceLock};
 use sphpack_neighbors::{Bounds, point};
 
 use crate::surface::Features;
-use crate::{Bvh, GeometryError, Similarity};
+use crate::{Bvh, GeometryError, MeshError, Similarity};
 use normals::Normals;
 
 /// An edge at which the two triangles' normals differ by more than this is sharp; at less it is part of a smooth
@@ -59,9 +59,9 @@ impl Mesh {
     /// that use a vertex twice are dropped. O(n log n).
     ///
     /// # Errors
-    /// [`GeometryError::NotFinite`], [`GeometryError::BadIndex`], [`GeometryError::OpenMesh`] unless every edge has
-    /// exactly two triangles, [`GeometryError::InconsistentFacing`] where these face opposite ways,
-    /// [`GeometryError::NoVolume`].
+    /// [`MeshError::NotFinite`], [`MeshError::BadIndex`], [`MeshError::Open`] unless every edge has
+    /// exactly two triangles, [`MeshError::InconsistentFacing`] where these face opposite ways,
+    /// [`MeshError::NoVolume`].
     pub fn new(
         vertices: Vec<[f64; 3]>,
         mut triangles: Vec<[u32; 3]>,
@@ -69,15 +69,16 @@ impl Mesh {
         topology::check_places(&vertices, &triangles)?;
         triangles.retain(|&[a, b, c]| a != b && b != c && c != a);
         if triangles.is_empty() {
-            return Err(GeometryError::NoVolume { triangles: 0 });
+            return Err(MeshError::NoVolume { triangles: 0 }.into());
         }
         topology::check_closed(&vertices, &triangles)?;
         let mut volume = enclosed(&vertices, &triangles);
         let size = Bounds::of(&vertices).diagonal();
         if volume.abs() <= 1e-15 * size.powi(3) || !volume.is_finite() {
-            return Err(GeometryError::NoVolume {
+            return Err(MeshError::NoVolume {
                 triangles: triangles.len(),
-            });
+            }
+            .into());
         }
         if volume < 0.0 {
             volume = -volume;
@@ -119,15 +120,16 @@ impl Mesh {
             .iter()
             .position(|t| t.iter().any(|&v| !point::is_finite(v)))
         {
-            return Err(GeometryError::NotFinite {
+            return Err(MeshError::NotFinite {
                 what: "triangle",
                 index,
-            });
+            }
+            .into());
         }
         let (vertices, triangles) = weld::exact(corners);
         let size = Bounds::of(&vertices).diagonal();
         match Self::new(vertices.clone(), triangles.clone()) {
-            Err(error @ GeometryError::OpenMesh { .. }) => {
+            Err(error @ GeometryError::Mesh(MeshError::Open { .. })) => {
                 let (vertices, triangles) =
                     weld::within(&vertices, &triangles, weld::TOLERANCE * size);
                 // What the exact weld finds wrong is nearer to the file.
@@ -151,7 +153,7 @@ impl Mesh {
     /// The mesh scaled by `factor` about the origin.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless `factor` is positive and finite, or what [`Mesh::new`] finds where
+    /// [`GeometryError::Parameter`] unless `factor` is positive and finite, or what [`Mesh::new`] finds where
     /// numbers overflow.
     pub fn scaled(&self, factor: f64) -> Result<Self, GeometryError> {
         self.transformed(&Similarity::scaling(factor)?)

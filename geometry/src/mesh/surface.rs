@@ -143,11 +143,11 @@ impl Surface<3> for Mesh {
     }
 
     fn sample(&self, count: usize) -> Result<Vec<Closest<3>>, GeometryError> {
-        let strew = |_, wanted| self.strewn(wanted);
-        crate::sample::spread(self, count, &|p| self.closest(p), strew)
+        let scatter = |_, wanted| self.scattered(wanted);
+        crate::sample::spread(self, count, &|p| self.closest(p), scatter)
     }
 
-    fn strew(&self, count: usize) -> Vec<Closest<3>> {
-        self.strewn(count).hits()
+    fn scatter(&self, count: usize) -> Vec<Closest<3>> {
+        self.scattered(count).hits()
     }
 }

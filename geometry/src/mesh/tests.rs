@@ -7,7 +7,7 @@ use sphpack_neighbors::point;
 
 use super::*;
 use crate::surface::{Feature, Surface};
-use crate::{Ball, Cuboid};
+use crate::{Ball, Cuboid, InsetError, ParameterError};
 
 /// A sphere of radius 1: an icosahedron with every triangle cut in four, `levels` times.
 pub(crate) fn icosphere(levels: usize) -> Mesh {
@@ -311,7 +311,7 @@ fn insets() {
     );
     assert!(matches!(
         mesh.inset(0.5),
-        Err(GeometryError::Vanished { .. })
+        Err(GeometryError::Inset(InsetError::Vanished { .. }))
     ));
 }
 
@@ -347,55 +347,58 @@ fn bad_meshes_are_refused() {
     open.pop();
     assert!(matches!(
         Mesh::new(vertices.clone(), open),
-        Err(GeometryError::OpenMesh {
+        Err(GeometryError::Mesh(MeshError::Open {
             open_edges: 3,
             non_manifold: 0,
             ..
-        })
+        }))
     ));
     let mut turned = triangles.clone();
     turned[0].swap(0, 1);
     assert!(matches!(
         Mesh::new(vertices.clone(), turned),
-        Err(GeometryError::InconsistentFacing { edges: 3, .. })
+        Err(GeometryError::Mesh(MeshError::InconsistentFacing {
+            edges: 3,
+            ..
+        }))
     ));
     let mut twice = triangles.clone();
     twice.extend(triangles.clone());
     assert!(matches!(
         Mesh::new(vertices.clone(), twice),
-        Err(GeometryError::OpenMesh { open_edges: 0, .. })
+        Err(GeometryError::Mesh(MeshError::Open { open_edges: 0, .. }))
     ));
     let mut far = triangles.clone();
     far[3][1] = 999;
     assert!(matches!(
         Mesh::new(vertices.clone(), far),
-        Err(GeometryError::BadIndex {
+        Err(GeometryError::Mesh(MeshError::BadIndex {
             triangle: 3,
             vertex: 999,
             ..
-        })
+        }))
     ));
     let mut odd = vertices.clone();
     odd[5][1] = f64::NAN;
     assert!(matches!(
         Mesh::new(odd, triangles.clone()),
-        Err(GeometryError::NotFinite { index: 5, .. })
+        Err(GeometryError::Mesh(MeshError::NotFinite { index: 5, .. }))
     ));
     assert!(matches!(
         Mesh::new(vec![], vec![]),
-        Err(GeometryError::NoVolume { .. })
+        Err(GeometryError::Mesh(MeshError::NoVolume { .. }))
     ));
     let flat = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     assert!(matches!(
         Mesh::new(flat, vec![[0, 1, 2], [0, 2, 1]]),
-        Err(GeometryError::NoVolume { .. })
+        Err(GeometryError::Mesh(MeshError::NoVolume { .. }))
     ));
     // Inside out is turned.
     let inside_out = triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
     assert!((Mesh::new(vertices, inside_out).unwrap().volume() - 8.0).abs() < 1e-12);
     assert!(matches!(
         cube(1).scaled(0.0),
-        Err(GeometryError::BadParameter { .. })
+        Err(GeometryError::Parameter(ParameterError::OutOfRange { .. }))
     ));
 }
 
@@ -450,7 +453,7 @@ fn stl_files() {
     odd[96..100].copy_from_slice(&f32::NAN.to_le_bytes());
     assert!(matches!(
         Mesh::from_stl_bytes(odd),
-        Err(GeometryError::NotFinite { index: 0, .. })
+        Err(GeometryError::Mesh(MeshError::NotFinite { index: 0, .. }))
     ));
     let missing = Mesh::read_stl("no/such/file.stl").unwrap_err();
     assert!(

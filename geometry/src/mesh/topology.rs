@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sphpack_neighbors::point;
 
-use crate::GeometryError;
+use crate::{GeometryError, MeshError};
 
 /// One side of one triangle, in two numbers so that millions of them sort fast.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -60,19 +60,21 @@ pub(crate) fn check_places(
     // Squares must stay finite too, or every distance is infinite.
     let is_bad = |&v: &[f64; 3]| !point::norm_squared(v).is_finite();
     if let Some(index) = vertices.iter().position(is_bad) {
-        return Err(GeometryError::NotFinite {
+        return Err(MeshError::NotFinite {
             what: "vertex",
             index,
-        });
+        }
+        .into());
     }
     let count = vertices.len();
     for (triangle, corners) in triangles.iter().enumerate() {
         if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= count) {
-            return Err(GeometryError::BadIndex {
+            return Err(MeshError::BadIndex {
                 triangle,
                 vertex: vertex as usize,
                 vertices: count,
-            });
+            }
+            .into());
         }
     }
     Ok(())
@@ -120,17 +122,19 @@ pub(super) fn check_closed(
         }
     }
     if let Some(place) = first_hole {
-        return Err(GeometryError::OpenMesh {
+        return Err(MeshError::Open {
             open_edges,
             non_manifold,
             place,
-        });
+        }
+        .into());
     }
     match first_wrong {
-        Some(place) => Err(GeometryError::InconsistentFacing {
+        Some(place) => Err(MeshError::InconsistentFacing {
             edges: wrong_way,
             place,
-        }),
+        }
+        .into()),
         None => Ok(()),
     }
 }

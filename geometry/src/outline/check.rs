@@ -3,26 +3,24 @@
 use sphpack_neighbors::{Bounds, point};
 
 use super::{Outline, SAME_POINT};
-use crate::GeometryError;
 use crate::segment::{cross, meeting, signed_area};
+use crate::{GeometryError, LoopSide, OutlineError};
 
 /// The loops without repeated consecutive points (the first at the end included).
 pub(super) fn without_repeats(
     loops: Vec<Vec<[f64; 2]>>,
 ) -> Result<Vec<Vec<[f64; 2]>>, GeometryError> {
     if loops.is_empty() {
-        return Err(GeometryError::TooFewPoints {
+        return Err(OutlineError::TooFewPoints {
             loop_index: 0,
             count: 0,
-        });
+        }
+        .into());
     }
     for (index, p) in loops.iter().flatten().enumerate() {
         // Squares must stay finite too, or every distance is infinite.
         if !point::norm_squared(*p).is_finite() {
-            return Err(GeometryError::NotFinite {
-                what: "point",
-                index,
-            });
+            return Err(OutlineError::NotFinite { index }.into());
         }
     }
     let mut clean = Vec::with_capacity(loops.len());
@@ -39,13 +37,14 @@ pub(super) fn without_repeats(
             kept.pop();
         }
         if kept.len() < 3 {
-            return Err(GeometryError::TooFewPoints {
+            return Err(OutlineError::TooFewPoints {
                 loop_index,
                 count: kept.len(),
-            });
+            }
+            .into());
         }
         if kept.len() == 3 && signed_area(&kept).abs() <= 1e-15 * size * size {
-            return Err(GeometryError::NoArea { loop_index });
+            return Err(OutlineError::NoArea { loop_index }.into());
         }
         clean.push(kept);
     }
@@ -57,22 +56,27 @@ pub(super) fn no_meetings(outline: &Outline) -> Result<(), GeometryError> {
     for (loop_index, points) in outline.loops().enumerate() {
         let size = Bounds::of(points).size();
         if size[0] == 0.0 || size[1] == 0.0 {
-            return Err(GeometryError::NoArea { loop_index });
+            return Err(OutlineError::NoArea { loop_index }.into());
         }
     }
     match first_meeting(outline) {
         None => {}
         Some((i, j, place)) => {
-            return Err(GeometryError::SelfIntersecting {
-                first: outline.address(i),
-                second: outline.address(j),
+            let side = |i: usize| {
+                let (loop_index, side) = outline.address(i);
+                LoopSide { loop_index, side }
+            };
+            return Err(OutlineError::SelfIntersecting {
+                first: side(i),
+                second: side(j),
                 place,
-            });
+            }
+            .into());
         }
     }
     for (loop_index, points) in outline.loops().enumerate() {
         if signed_area(points) == 0.0 {
-            return Err(GeometryError::NoArea { loop_index });
+            return Err(OutlineError::NoArea { loop_index }.into());
         }
     }
     Ok(())

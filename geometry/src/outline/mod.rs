@@ -64,8 +64,8 @@ impl Outline {
     /// that spread out.
     ///
     /// # Errors
-    /// [`GeometryError::TooFewPoints`], [`GeometryError::NotFinite`], [`GeometryError::NoArea`], and
-    /// [`GeometryError::SelfIntersecting`] with the two sides and the place where the outline crosses or touches
+    /// An [`OutlineError`](crate::OutlineError): too few points, no finite number, no area, or
+    /// the two sides and the place where the outline crosses or touches
     /// itself.
     pub fn new(loops: Vec<Vec<[f64; 2]>>) -> Result<Self, GeometryError> {
         let loops = check::without_repeats(loops)?;
@@ -206,7 +206,7 @@ impl Outline {
         );
     }
 
-    /// Loop and place within it of point `i`.
+    /// Loop and place within it of point `i`, and of the side that begins there.
     pub(crate) fn address(&self, i: usize) -> (usize, usize) {
         let k = self.starts.partition_point(|&start| start <= i) - 1;
         (k, i - self.starts[k])

@@ -6,7 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::GeometryError;
+use crate::{GeometryError, ParameterError};
 
 /// Mean lines of five digits for a lift coefficient of 0.3: greatest camber at so many twentieths of the chord, where the
 /// parts meet, k₁.
@@ -77,8 +77,11 @@ enum Thickness {
 impl NacaSection {
     /// The section of a name such as "2412", "23012" or "0012-64".
     pub(super) fn named(name: &str) -> Result<Self, GeometryError> {
-        Self::parsed(name).ok_or_else(|| GeometryError::BadNaca {
-            digits: name.chars().take(40).collect(),
+        Self::parsed(name).ok_or_else(|| {
+            ParameterError::BadNaca {
+                digits: name.chars().take(40).collect(),
+            }
+            .into()
         })
     }
 

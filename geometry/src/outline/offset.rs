@@ -9,8 +9,8 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use sphpack_neighbors::{Bounds, point};
 
 use super::{Outline, check::first_meeting, engine};
-use crate::GeometryError;
 use crate::segment::{cross, signed_area};
+use crate::{GeometryError, InsetError, ParameterError};
 
 /// Mitres longer than this many offsets are cut off (bevelled).
 pub const MITRE_LIMIT: f64 = 4.0;
@@ -30,16 +30,17 @@ impl Outline {
     /// Self-intersections are cut; loops may split, merge or vanish.
     ///
     /// # Errors
-    /// [`GeometryError::Vanished`] where nothing is left, [`GeometryError::BadParameter`] where `distance` is not
-    /// finite, [`GeometryError::TooTangled`] where what the sides sweep would have 64 times the outline's points.
+    /// [`InsetError::Vanished`] where nothing is left, [`GeometryError::Parameter`] where `distance` is not
+    /// finite, [`InsetError::TooTangled`] where what the sides sweep would have 64 times the outline's points.
     pub fn offset(&self, distance: f64) -> Result<Self, GeometryError> {
-        GeometryError::check_finite("offset", "distance", [distance])?;
+        ParameterError::check_finite("offset", "distance", [distance])?;
         if distance == 0.0 {
             return Ok(self.clone());
         }
-        let vanished = GeometryError::Vanished {
+        let vanished = InsetError::Vanished {
             depth: distance.abs(),
-        };
+        }
+        .into();
         let size = Bounds::of(&self.points).size();
         if -distance >= 0.5 * size[0].min(size[1]) {
             return Err(vanished);
@@ -52,12 +53,13 @@ impl Outline {
             raw.push(points);
         }
         if raw.iter().flatten().any(|p| !point::is_finite(*p)) {
-            return Err(GeometryError::BadParameter {
-                shape: "offset",
+            return Err(ParameterError::OutOfRange {
+                of: "offset",
                 name: "distance",
                 value: distance,
                 needs: "small enough to compute with",
-            });
+            }
+            .into());
         }
         if simple {
             let candidate = Self::assemble(raw.clone());

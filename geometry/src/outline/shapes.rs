@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use super::Outline;
 use super::naca::NacaSection;
-use crate::GeometryError;
 use crate::sampling::{extent, nodes};
+use crate::{GeometryError, ParameterError};
 
 impl Outline {
     /// r(θ) = `radius` (1 + `amplitude` cos(`arms` θ)) about `center`: the starfish of Negi & Ramachandran (2021), fig. 17
@@ -13,30 +13,32 @@ impl Outline {
     /// [`SAGITTA_OVER_SIZE`](crate::SAGITTA_OVER_SIZE) of its size.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless radius > 0, 0 ≤ amplitude < 1 and 1 ≤ arms ≤ 1000.
+    /// [`GeometryError::Parameter`] unless radius > 0, 0 ≤ amplitude < 1 and 1 ≤ arms ≤ 1000.
     pub fn starfish(
         center: [f64; 2],
         radius: f64,
         amplitude: f64,
         arms: u32,
     ) -> Result<Self, GeometryError> {
-        GeometryError::check_finite("starfish", "center", center)?;
-        GeometryError::check_positive("starfish", "radius", radius)?;
+        ParameterError::check_finite("starfish", "center", center)?;
+        ParameterError::check_positive("starfish", "radius", radius)?;
         if !(0.0..1.0).contains(&amplitude) {
-            return Err(GeometryError::BadParameter {
-                shape: "starfish",
+            return Err(ParameterError::OutOfRange {
+                of: "starfish",
                 name: "amplitude",
                 value: amplitude,
                 needs: "at least 0 and below 1",
-            });
+            }
+            .into());
         }
         if !(1..=1000).contains(&arms) {
-            return Err(GeometryError::BadParameter {
-                shape: "starfish",
+            return Err(ParameterError::OutOfRange {
+                of: "starfish",
                 name: "arms",
                 value: f64::from(arms),
                 needs: "1 to 1000",
-            });
+            }
+            .into());
         }
         let at = |angle: f64| {
             let r = radius * (1.0 + amplitude * (f64::from(arms) * angle).cos());
@@ -57,11 +59,11 @@ impl Outline {
     /// [`Ball`](crate::Ball) are exact, but cannot be cut.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless the semi-axes are positive and finite and the centre is finite.
+    /// [`GeometryError::Parameter`] unless the semi-axes are positive and finite and the centre is finite.
     pub fn ellipse(center: [f64; 2], semi_axes: [f64; 2]) -> Result<Self, GeometryError> {
-        GeometryError::check_finite("ellipse", "center", center)?;
+        ParameterError::check_finite("ellipse", "center", center)?;
         for length in semi_axes {
-            GeometryError::check_positive("ellipse", "semi_axes", length)?;
+            ParameterError::check_positive("ellipse", "semi_axes", length)?;
         }
         let at = |angle: f64| {
             [
@@ -89,9 +91,9 @@ impl Outline {
     /// ```
     ///
     /// # Errors
-    /// [`GeometryError::BadNaca`] for any other name, [`GeometryError::BadParameter`] for a bad chord.
+    /// [`ParameterError::BadNaca`] for any other name, [`GeometryError::Parameter`] for a bad chord.
     pub fn naca(digits: &str, chord: f64) -> Result<Self, GeometryError> {
-        GeometryError::check_positive("naca", "chord", chord)?;
+        ParameterError::check_positive("naca", "chord", chord)?;
         let foil = NacaSection::named(digits)?;
         let at = |angle: f64| {
             let [x, y] = foil.at(angle);
@@ -110,31 +112,33 @@ impl Outline {
     /// angles at its teeth both ways.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless the lengths are positive, amplitude < height, and 1 ≤ teeth ≤ 10⁶.
+    /// [`GeometryError::Parameter`] unless the lengths are positive, amplitude < height, and 1 ≤ teeth ≤ 10⁶.
     pub fn zigzag(
         width: f64,
         height: f64,
         amplitude: f64,
         teeth: u32,
     ) -> Result<Self, GeometryError> {
-        GeometryError::check_positive("zigzag", "width", width)?;
-        GeometryError::check_positive("zigzag", "height", height)?;
-        GeometryError::check_positive("zigzag", "amplitude", amplitude)?;
+        ParameterError::check_positive("zigzag", "width", width)?;
+        ParameterError::check_positive("zigzag", "height", height)?;
+        ParameterError::check_positive("zigzag", "amplitude", amplitude)?;
         if amplitude >= height {
-            return Err(GeometryError::BadParameter {
-                shape: "zigzag",
+            return Err(ParameterError::OutOfRange {
+                of: "zigzag",
                 name: "amplitude",
                 value: amplitude,
                 needs: "smaller than the height",
-            });
+            }
+            .into());
         }
         if !(1..=1_000_000).contains(&teeth) {
-            return Err(GeometryError::BadParameter {
-                shape: "zigzag",
+            return Err(ParameterError::OutOfRange {
+                of: "zigzag",
                 name: "teeth",
                 value: f64::from(teeth),
                 needs: "1 to 1000000",
-            });
+            }
+            .into());
         }
         let right = 0.5 * width;
         let mut points = vec![[-right, -height], [right, -height], [right, 0.0]];

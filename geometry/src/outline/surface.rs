@@ -5,10 +5,10 @@ use std::sync::Arc;
 use sphpack_neighbors::{Bounds, point};
 
 use super::{Outline, inside::crosses};
-use crate::GeometryError;
 use crate::sample::{Candidates, Ring, along};
 use crate::segment::{Segment, cross};
 use crate::surface::{Closest, Feature, Features, Surface};
+use crate::{GeometryError, ParameterError};
 
 impl Outline {
     /// What side `i` answers to `p`, to which it is the nearest.
@@ -141,7 +141,7 @@ impl Surface<2> for Outline {
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<2>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         Ok(Arc::new(self.offset(-depth)?))
     }
 
@@ -158,7 +158,7 @@ impl Surface<2> for Outline {
         Ok(along(self, &rings, count))
     }
 
-    fn strew(&self, count: usize) -> Vec<Closest<2>> {
+    fn scatter(&self, count: usize) -> Vec<Closest<2>> {
         let place = |side: &Segment, before: f64| {
             (
                 point::add_scaled(side.start, before, side.edge),

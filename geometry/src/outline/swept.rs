@@ -12,8 +12,8 @@ use sphpack_neighbors::{Bounds, point};
 
 use super::offset::Turn;
 use super::{Outline, engine};
-use crate::GeometryError;
 use crate::segment::cross;
+use crate::{GeometryError, InsetError};
 
 type Loops = Vec<Vec<[f64; 2]>>;
 
@@ -32,7 +32,7 @@ impl Outline {
     /// What the sides sweep as they move by `distance`.
     ///
     /// # Errors
-    /// [`GeometryError::TooTangled`].
+    /// [`InsetError::TooTangled`].
     pub(super) fn swept(&self, distance: f64) -> Result<Loops, GeometryError> {
         let mut chains: Vec<Chain> = Vec::new();
         for range in self.starts.windows(2) {
@@ -47,9 +47,12 @@ impl Outline {
             }
         }
         let most = MOST_PER_POINT * self.points.len();
-        joined(&mut chains, most).ok_or(GeometryError::TooTangled {
-            distance: distance.abs(),
-        })
+        joined(&mut chains, most).ok_or(
+            InsetError::TooTangled {
+                distance: distance.abs(),
+            }
+            .into(),
+        )
     }
 }
 
@@ -259,7 +262,7 @@ mod tests {
         check(&starfish, 0.5);
         assert!(matches!(
             starfish.offset(-0.5),
-            Err(GeometryError::Vanished { .. })
+            Err(GeometryError::Inset(InsetError::Vanished { .. }))
         ));
     }
 

@@ -8,6 +8,7 @@ use sphpack_neighbors::point;
 use super::*;
 use crate::segment::meeting;
 use crate::surface::{Feature, Surface};
+use crate::{GeometryError, InsetError, LoopSide, OutlineError, ParameterError, ReadError};
 
 /// Star-shaped about the origin.
 fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
@@ -209,7 +210,7 @@ fn holes_split_and_merge() {
     assert!((frame.offset(0.6).unwrap().volume() - 7.2 * 7.2).abs() < 1e-9);
     assert!(matches!(
         frame.offset(-1.1),
-        Err(GeometryError::Vanished { depth: 1.1 })
+        Err(GeometryError::Inset(InsetError::Vanished { depth: 1.1 }))
     ));
     // A dumbbell splits in two.
     let bell = Outline::polygon(&[
@@ -260,14 +261,14 @@ fn airfoils() {
         assert!(
             matches!(
                 Outline::naca(digits, 1.0),
-                Err(GeometryError::BadNaca { .. })
+                Err(GeometryError::Parameter(ParameterError::BadNaca { .. }))
             ),
             "{digits}"
         );
     }
     assert!(matches!(
         Outline::naca("0015", 0.0),
-        Err(GeometryError::BadParameter { .. })
+        Err(GeometryError::Parameter(ParameterError::OutOfRange { .. }))
     ));
 }
 
@@ -329,47 +330,56 @@ fn bad_outlines_are_refused() {
     let of = |p: &[[f64; 2]]| Outline::polygon(p).unwrap_err();
     assert!(matches!(
         Outline::new(vec![]),
-        Err(GeometryError::TooFewPoints { .. })
+        Err(GeometryError::Outline(OutlineError::TooFewPoints { .. }))
     ));
     assert!(matches!(
         of(&[[0.0; 2], [1.0, 0.0], [1.0, 0.0]]),
-        GeometryError::TooFewPoints { count: 2, .. }
+        GeometryError::Outline(OutlineError::TooFewPoints { count: 2, .. })
     ));
     assert!(matches!(
         of(&[[0.0; 2], [1.0, 0.0], [2.0, 0.0]]),
-        GeometryError::NoArea { .. }
+        GeometryError::Outline(OutlineError::NoArea { .. })
     ));
     assert!(matches!(
         of(&[[0.0; 2], [1.0, 0.0], [2.0, 0.0], [1.5, 0.0]]),
-        GeometryError::NoArea { .. }
+        GeometryError::Outline(OutlineError::NoArea { .. })
     ));
     assert!(matches!(
         of(&[[0.0; 2], [1.0, f64::NAN], [2.0, 0.0]]),
-        GeometryError::NotFinite { index: 1, .. }
+        GeometryError::Outline(OutlineError::NotFinite { index: 1, .. })
     ));
     assert!(matches!(
         of(&[[0.0; 2], [1e200, 0.0], [2.0, 1.0]]),
-        GeometryError::NotFinite { index: 1, .. }
+        GeometryError::Outline(OutlineError::NotFinite { index: 1, .. })
     ));
     let bow = of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]);
     assert_eq!(
         bow,
-        GeometryError::SelfIntersecting {
-            first: (0, 0),
-            second: (0, 2),
+        GeometryError::Outline(OutlineError::SelfIntersecting {
+            first: LoopSide {
+                loop_index: 0,
+                side: 0
+            },
+            second: LoopSide {
+                loop_index: 0,
+                side: 2
+            },
             place: [0.5, 0.5]
-        }
+        })
     );
     // A spike that folds back, and a vertex that touches another side.
     let spike = of(&[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
-    assert!(matches!(spike, GeometryError::SelfIntersecting { .. }));
+    assert!(matches!(
+        spike,
+        GeometryError::Outline(OutlineError::SelfIntersecting { .. })
+    ));
     let touch = of(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.0], [0.0, 1.0]]);
     assert!(matches!(
         touch,
-        GeometryError::SelfIntersecting {
+        GeometryError::Outline(OutlineError::SelfIntersecting {
             place: [1.0, 0.0],
             ..
-        }
+        })
     ));
     let cross = Outline::new(vec![
         vec![[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]],
@@ -377,24 +387,24 @@ fn bad_outlines_are_refused() {
     ]);
     assert!(matches!(
         cross,
-        Err(GeometryError::SelfIntersecting {
-            first: (0, _),
-            second: (1, _),
+        Err(GeometryError::Outline(OutlineError::SelfIntersecting {
+            first: LoopSide { loop_index: 0, .. },
+            second: LoopSide { loop_index: 1, .. },
             ..
-        })
+        }))
     ));
     let square = tilted_square();
     assert!(matches!(
         square.inset(-1.0),
-        Err(GeometryError::BadParameter { .. })
+        Err(GeometryError::Parameter(ParameterError::OutOfRange { .. }))
     ));
     assert!(matches!(
         square.inset(f64::NAN),
-        Err(GeometryError::BadParameter { .. })
+        Err(GeometryError::Parameter(ParameterError::OutOfRange { .. }))
     ));
     assert!(matches!(
         square.inset(1.0),
-        Err(GeometryError::Vanished { .. })
+        Err(GeometryError::Inset(InsetError::Vanished { .. }))
     ));
     assert!(square.offset(f64::MAX).is_err());
 }
@@ -408,17 +418,20 @@ fn outlines_from_text() {
     let bad = |text: &str| Outline::from_text(text).unwrap_err();
     assert!(matches!(
         bad("0,0\n1,0\nnan,1\n"),
-        GeometryError::BadRow { line: 3, .. }
+        GeometryError::Read(ReadError::BadLine { line: 3, .. })
     ));
     assert!(matches!(
         bad("0,0\n1,0,2\n1,1\n"),
-        GeometryError::BadRow { line: 2, .. }
+        GeometryError::Read(ReadError::BadLine { line: 2, .. })
     ));
     assert!(matches!(
         bad("name\nname\n0,0\n"),
-        GeometryError::BadRow { line: 2, .. }
+        GeometryError::Read(ReadError::BadLine { line: 2, .. })
     ));
-    assert!(matches!(bad(""), GeometryError::TooFewPoints { .. }));
+    assert!(matches!(
+        bad(""),
+        GeometryError::Outline(OutlineError::TooFewPoints { .. })
+    ));
     let missing = Outline::from_csv("no/such/file.csv").unwrap_err();
     assert!(
         missing.to_string().starts_with("no/such/file.csv: "),

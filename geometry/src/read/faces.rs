@@ -40,7 +40,7 @@ impl Faces {
     /// triangles of least area.
     ///
     /// # Errors
-    /// [`GeometryError::BadFile`] where a polygon with reflex corners has too many of them.
+    /// [`ReadError::BadFile`](crate::ReadError::BadFile) where a polygon with reflex corners has too many of them.
     pub(super) fn loose(
         mut self,
         vertices: &[[f64; 3]],

@@ -48,7 +48,7 @@ impl BodyFormat {
     /// ```
     ///
     /// # Errors
-    /// [`GeometryError::BadFile`] where it is of no format that is read.
+    /// [`ReadError::BadFile`](crate::ReadError::BadFile) where it is of no format that is read.
     pub fn detect(bytes: &[u8], extension: &str) -> Result<Self, GeometryError> {
         Self::detect_head(bytes, bytes.len() as u64, extension)
     }

@@ -1,6 +1,6 @@
 //! Text as lines, words and numbers, straight from bytes.
 
-use crate::GeometryError;
+use crate::{GeometryError, ReadError};
 
 /// The lines of a text, numbered from 1, without their ends ("\n", "\r\n" or "\r") and a leading byte order mark.
 #[derive(Debug, Clone)]
@@ -99,15 +99,17 @@ pub(super) fn is_text(bytes: &[u8]) -> bool {
 
 /// An error in a line.
 pub(super) fn row(line: usize, reason: impl Into<String>) -> GeometryError {
-    GeometryError::BadRow {
+    ReadError::BadLine {
         line,
         reason: reason.into(),
     }
+    .into()
 }
 
 /// An error in a file as a whole.
 pub(super) fn whole(reason: impl Into<String>) -> GeometryError {
-    GeometryError::BadFile {
+    ReadError::BadFile {
         reason: reason.into(),
     }
+    .into()
 }

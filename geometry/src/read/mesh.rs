@@ -10,7 +10,7 @@ impl Mesh {
     /// welded as by [`Mesh::from_loose`]. [`Soup::read`] takes meshes with defects too.
     ///
     /// # Errors
-    /// [`GeometryError::InFile`] with the file's name around [`GeometryError::Unreadable`], what
+    /// [`GeometryError::InFile`] with the file's name around [`ReadError::Unreadable`](crate::ReadError::Unreadable), what
     /// [`BodyFormat::detect`] or [`BodyFormat::solids`] finds, or what [`Mesh::new`] finds.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, GeometryError> {
         outline::in_file(path.as_ref(), |bytes, extension| {
@@ -48,8 +48,8 @@ impl Soup {
     /// file are taken together, as by [`Soup::from_loose`].
     ///
     /// # Errors
-    /// [`GeometryError::InFile`] with the file's name around [`GeometryError::Unreadable`], what
-    /// [`BodyFormat::detect`] or [`BodyFormat::solids`] finds, or [`GeometryError::NotFinite`].
+    /// [`GeometryError::InFile`] with the file's name around [`ReadError::Unreadable`](crate::ReadError::Unreadable), what
+    /// [`BodyFormat::detect`] or [`BodyFormat::solids`] finds, or [`MeshError::NotFinite`](crate::MeshError::NotFinite).
     pub fn read(path: impl AsRef<Path>) -> Result<Self, GeometryError> {
         outline::in_file(path.as_ref(), |bytes, extension| {
             Self::from_bytes(BodyFormat::detect(bytes, extension)?, bytes)

@@ -41,8 +41,8 @@ impl BodyFormat {
     /// but for polygons that bend inward, O(m³) for m ≤ 300 corners of one.
     ///
     /// # Errors
-    /// [`GeometryError::BadRow`], [`GeometryError::BadByte`] or [`GeometryError::BadFile`] with the line or byte, what
-    /// is wrong and the cure; [`GeometryError::NotFinite`]; a file without triangles, of a 2-D format, or
+    /// A [`ReadError`](crate::ReadError) with the line or byte, what is wrong and the cure;
+    /// [`MeshError::NotFinite`](crate::MeshError::NotFinite); a file without triangles, of a 2-D format, or
     /// with a polygon of more corners that bends inward, is an error.
     pub fn solids(self, bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
         let solids = match self {
@@ -70,7 +70,7 @@ impl BodyFormat {
     /// O(n log n).
     ///
     /// # Errors
-    /// [`GeometryError::BadRow`] or [`GeometryError::BadFile`] with the line, what is wrong and the cure; a file of a
+    /// A [`ReadError`](crate::ReadError) with the line, what is wrong and the cure; a file of a
     /// 3-D format is an error.
     pub fn loops(self, bytes: &[u8]) -> Result<Vec<Vec<[f64; 2]>>, GeometryError> {
         match self {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{BodyFormat, svg};
-use crate::{GeometryError, Outline, Sketch};
+use crate::{GeometryError, Outline, ReadError, Sketch};
 
 impl Outline {
     /// Reads an outline without defects: rows of x,y, an airfoil's coordinates, or a drawing in SVG, by its content.
@@ -18,7 +18,7 @@ impl Outline {
     /// drawing's size. [`Sketch::read`] takes outlines with defects too.
     ///
     /// # Errors
-    /// [`GeometryError::InFile`] with the file's name around [`GeometryError::Unreadable`], what
+    /// [`GeometryError::InFile`] with the file's name around [`ReadError::Unreadable`], what
     /// [`BodyFormat::detect`] or [`BodyFormat::loops`] finds, or what [`Outline::new`] finds.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, GeometryError> {
         in_file(path.as_ref(), |bytes, extension| {
@@ -57,7 +57,7 @@ impl Sketch {
     /// Reads an outline with whatever defects it has, from files as those of [`Outline::read`].
     ///
     /// # Errors
-    /// [`GeometryError::InFile`] with the file's name around [`GeometryError::Unreadable`], what
+    /// [`GeometryError::InFile`] with the file's name around [`ReadError::Unreadable`], what
     /// [`BodyFormat::detect`] or [`BodyFormat::loops`] finds, or what [`Sketch::new`] finds.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, GeometryError> {
         in_file(path.as_ref(), |bytes, extension| {
@@ -89,8 +89,11 @@ pub(super) fn in_file<T>(
         .extension()
         .map_or_else(String::new, |e| e.to_string_lossy().into_owned());
     std::fs::read(path)
-        .map_err(|e| GeometryError::Unreadable {
-            reason: e.to_string(),
+        .map_err(|e| {
+            ReadError::Unreadable {
+                reason: e.to_string(),
+            }
+            .into()
         })
         .and_then(|bytes| read(&bytes, &extension))
         .map_err(|e| e.in_file(path))

@@ -7,7 +7,7 @@ use sphpack_neighbors::point;
 
 use super::lines::{whole, without_mark};
 use super::{Solid, stl_text};
-use crate::GeometryError;
+use crate::{GeometryError, MeshError};
 
 /// Bytes before the first triangle of a binary file: 80 of title, 4 of count.
 const HEAD: usize = 84;
@@ -132,10 +132,11 @@ fn read_binary(bytes: &[u8], count: u64) -> Result<Solid, GeometryError> {
             .vertices
             .map(|v| v.0.map(f64::from));
         if corners.iter().any(|&v| !point::is_finite(v)) {
-            return Err(GeometryError::NotFinite {
+            return Err(MeshError::NotFinite {
                 what: "triangle",
                 index: triangles.len(),
-            });
+            }
+            .into());
         }
         triangles.push(corners);
     }

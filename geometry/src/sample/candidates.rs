@@ -1,4 +1,4 @@
-//! Many points strewn over a surface by area, of which the evenest are kept.
+//! Many points scattered over a surface by area, of which the evenest are kept.
 
 use sphpack_neighbors::random::SplitMix64;
 use sphpack_neighbors::{Bounds, Domain, point};

@@ -19,8 +19,8 @@ mod tests;
 use rayon::prelude::*;
 use sphpack_neighbors::point;
 
-use crate::GeometryError;
 use crate::surface::{Closest, Feature, Surface};
+use crate::{GeometryError, ParameterError};
 
 pub(crate) use candidates::{Candidates, QUICK, Search, THOROUGH};
 pub(crate) use curve::{Ring, along};
@@ -47,7 +47,7 @@ pub(crate) fn evenly<const D: usize, S: Surface<D> + ?Sized>(
 /// to, and `near` the closest point of a place near the surface, both perhaps faster than [`Surface::closest`].
 ///
 /// # Errors
-/// [`GeometryError::BadParameter`] unless `D` is 2 or 3.
+/// [`GeometryError::Parameter`] unless `D` is 2 or 3.
 pub(crate) fn evenly_near<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     count: usize,
@@ -68,17 +68,18 @@ pub(crate) fn evenly_near<const D: usize, S: Surface<D> + ?Sized>(
         3 => spread(surface, count, near, |spacing, wanted| {
             Candidates::in_boxes(&bounds, look, spacing, wanted, QUICK)
         }),
-        _ => Err(GeometryError::BadParameter {
-            shape: "sample",
+        _ => Err(ParameterError::OutOfRange {
+            of: "sample",
             name: "dimension",
             value: D as f64,
             needs: "2 or 3",
-        }),
+        }
+        .into()),
     }
 }
 
-/// [`Surface::strew`] for a surface of which nothing but its answers is known.
-pub(crate) fn strewn<const D: usize, S: Surface<D> + ?Sized>(
+/// [`Surface::scatter`] for a surface of which nothing but its answers is known.
+pub(crate) fn scattered<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     count: usize,
 ) -> Vec<Closest<D>> {

@@ -6,20 +6,20 @@ use sphpack_neighbors::Domain;
 use super::candidates::Candidates;
 use super::local::Local;
 use super::{features, relax, thinning};
-use crate::GeometryError;
 use crate::continued::within_window;
 use crate::surface::{Closest, Feature, Surface};
+use crate::{GeometryError, ParameterError};
 
 /// Candidates per point.
 const CANDIDATES: usize = 6;
 
 /// `count` points spread evenly over `surface`. `near` answers like [`Surface::closest`] near the surface, perhaps
-/// less exactly and faster; `strew` gives so many candidates for a spacing.
+/// less exactly and faster; `scatter` gives so many candidates for a spacing.
 pub(crate) fn spread<const D: usize, S: Surface<D> + ?Sized>(
     surface: &S,
     count: usize,
     near: &(impl Fn([f64; D]) -> Closest<D> + Sync),
-    strew: impl FnOnce(f64, usize) -> Candidates<D>,
+    scatter: impl FnOnce(f64, usize) -> Candidates<D>,
 ) -> Result<Vec<Closest<D>>, GeometryError> {
     if count == 0 {
         return Ok(Vec::new());
@@ -29,14 +29,15 @@ pub(crate) fn spread<const D: usize, S: Surface<D> + ?Sized>(
     if sites.len() == count {
         return Ok(sites);
     }
-    let candidates = strew(rough, CANDIDATES * count);
+    let candidates = scatter(rough, CANDIDATES * count);
     if candidates.point.is_empty() {
-        return Err(GeometryError::BadParameter {
-            shape: "sample",
+        return Err(ParameterError::OutOfRange {
+            of: "sample",
             name: "area of the surface",
             value: candidates.area,
             needs: "large enough to be found between points of a grid",
-        });
+        }
+        .into());
     }
     let spacing = (candidates.area / count as f64).sqrt();
     let locals = vec![Local::even(spacing); sites.len() + candidates.point.len()];

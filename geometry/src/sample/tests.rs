@@ -295,13 +295,13 @@ proptest! {
 }
 
 #[test]
-fn strewn_points_stand_for_equal_areas() {
+fn scattered_points_stand_for_equal_areas() {
     // Both sides of plates much thinner than the mean distance between the points.
     for thickness in [0.02, 0.1, 0.5] {
         let plate = Cuboid::new([0.0; 3], [2.0, 1.0, thickness]).unwrap();
         let strip = Cuboid::new([0.0; 2], [2.0, thickness]).unwrap();
-        let up: Vec<f64> = plate.strew(1000).iter().map(|s| s.normal[2]).collect();
-        let up_there: Vec<f64> = strip.strew(1000).iter().map(|s| s.normal[1]).collect();
+        let up: Vec<f64> = plate.scatter(1000).iter().map(|s| s.normal[2]).collect();
+        let up_there: Vec<f64> = strip.scatter(1000).iter().map(|s| s.normal[1]).collect();
         for (normals, part) in [
             (up, 2.0 / plate.measure()),
             (up_there, 2.0 / strip.measure()),
@@ -314,10 +314,10 @@ fn strewn_points_stand_for_equal_areas() {
         }
     }
     let cow = spot();
-    for site in cow.strew(2000) {
+    for site in cow.scatter(2000) {
         assert!(cow.closest(site.point).distance.abs() < 1e-12);
     }
-    assert_eq!(Outline::naca("0015", 1.0).unwrap().strew(500).len(), 500);
+    assert_eq!(Outline::naca("0015", 1.0).unwrap().scatter(500).len(), 500);
 }
 
 /// A torus that counts how often it is asked for a closest point.
@@ -369,7 +369,7 @@ proptest! {
     ) {
         let torus = Torus::new([0.1, 0.2, 0.3], axis, 1.9, radius).unwrap();
         let asked = Asked { torus, times: AtomicUsize::new(0) };
-        let sites = asked.strew(count);
+        let sites = asked.scatter(count);
         prop_assert_eq!(sites.len(), count);
         let times = asked.times.into_inner();
         prop_assert!(times < 20_000 * count, "{times}");

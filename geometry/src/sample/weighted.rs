@@ -6,10 +6,10 @@ use super::candidates::Candidates;
 use super::features;
 use super::local::Local;
 use super::sheet::settle;
-use crate::GeometryError;
 use crate::surface::{Closest, Surface};
+use crate::{GeometryError, ParameterError};
 
-/// Strewn points per point that is wanted.
+/// Scattered points per point that is wanted.
 const CANDIDATES: usize = 8;
 
 /// Weights below this part of the greatest count as so much: distances between points differ by 100 (2-D) or 10 at most.
@@ -37,7 +37,7 @@ const CROWDED: f64 = 0.7;
 /// ```
 ///
 /// # Errors
-/// As [`Surface::sample`], and [`GeometryError::BadParameter`] where no weight is positive.
+/// As [`Surface::sample`], and [`GeometryError::Parameter`] where no weight is positive.
 pub fn sample_weighted<const D: usize>(
     surface: &dyn Surface<D>,
     count: usize,
@@ -46,16 +46,17 @@ pub fn sample_weighted<const D: usize>(
     if count == 0 {
         return Ok(Vec::new());
     }
-    let hits = surface.strew(CANDIDATES * count);
+    let hits = surface.scatter(CANDIDATES * count);
     let weights: Vec<f64> = hits.iter().map(|hit| weight(hit).max(0.0)).collect();
     let greatest = weights.iter().copied().fold(0.0, f64::max);
     if !(greatest > 0.0 && greatest.is_finite()) {
-        return Err(GeometryError::BadParameter {
-            shape: "sample",
+        return Err(ParameterError::OutOfRange {
+            of: "sample",
             name: "greatest weight",
             value: greatest,
             needs: "positive and finite",
-        });
+        }
+        .into());
     }
     let least = LEAST_WEIGHT * greatest;
     let mean = weights.iter().map(|w| w.max(least)).sum::<f64>() / weights.len() as f64;

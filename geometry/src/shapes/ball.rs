@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use sphpack_neighbors::{Bounds, point};
 
-use crate::GeometryError;
 use crate::surface::{Closest, Feature, Features, Surface};
+use crate::{GeometryError, InsetError, ParameterError};
 
 /// A circle (`D` = 2) or sphere (`D` = 3). Every query is O(1).
 ///
@@ -26,10 +26,10 @@ impl<const D: usize> Ball<D> {
     /// The ball of `radius` around `center`, scene units.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless the centre is finite and the radius positive.
+    /// [`GeometryError::Parameter`] unless the centre is finite and the radius positive.
     pub fn new(center: [f64; D], radius: f64) -> Result<Self, GeometryError> {
-        GeometryError::check_finite("ball", "center", center)?;
-        GeometryError::check_positive("ball", "radius", radius)?;
+        ParameterError::check_finite("ball", "center", center)?;
+        ParameterError::check_positive("ball", "radius", radius)?;
         Ok(Self { center, radius })
     }
 
@@ -99,9 +99,9 @@ impl<const D: usize> Surface<D> for Ball<D> {
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         if depth >= self.radius {
-            return Err(GeometryError::Vanished { depth });
+            return Err(InsetError::Vanished { depth }.into());
         }
         Ok(Arc::new(Self {
             center: self.center,

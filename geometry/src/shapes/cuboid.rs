@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use sphpack_neighbors::{Bounds, point};
 
-use crate::GeometryError;
 use crate::surface::{Closest, Feature, Features, Surface};
+use crate::{GeometryError, InsetError, ParameterError};
 
 /// A rectangle (`D` = 2) or box (`D` = 3) along the axes; [`Placed`](crate::Placed) turns it. Every query is O(1).
 ///
@@ -27,12 +27,12 @@ impl<const D: usize> Cuboid<D> {
     /// The box between the corners `min` and `max`, scene units.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless both are finite and `min` is below `max` along every axis.
+    /// [`GeometryError::Parameter`] unless both are finite and `min` is below `max` along every axis.
     pub fn new(min: [f64; D], max: [f64; D]) -> Result<Self, GeometryError> {
-        GeometryError::check_finite("box", "min", min)?;
-        GeometryError::check_finite("box", "max", max)?;
+        ParameterError::check_finite("box", "min", min)?;
+        ParameterError::check_finite("box", "max", max)?;
         for k in 0..D {
-            GeometryError::check_positive("box", "max - min", max[k] - min[k])?;
+            ParameterError::check_positive("box", "max - min", max[k] - min[k])?;
         }
         Ok(Self {
             bounds: Bounds::new(min, max),
@@ -127,10 +127,10 @@ impl<const D: usize> Surface<D> for Cuboid<D> {
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         let bounds = self.bounds.grown(-depth);
         if (0..D).any(|k| bounds.min[k] >= bounds.max[k]) {
-            return Err(GeometryError::Vanished { depth });
+            return Err(InsetError::Vanished { depth }.into());
         }
         Ok(Arc::new(Self { bounds }))
     }

@@ -7,7 +7,7 @@ use sphpack_neighbors::{Bounds, point};
 
 use super::perpendicular;
 use crate::surface::{Closest, Feature, Features, Surface};
-use crate::{GeometryError, Mesh};
+use crate::{GeometryError, InsetError, Mesh, ParameterError};
 
 /// Sides of the polyline that stands for each rim in [`Surface::features`].
 const RIM_SIDES: usize = 360;
@@ -34,13 +34,13 @@ impl Cylinder {
     /// The cylinder of `radius` around the axis from `start` to `end` (the middles of its flat ends), scene units.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless all is finite, the ends differ and the radius is positive.
+    /// [`GeometryError::Parameter`] unless all is finite, the ends differ and the radius is positive.
     pub fn new(start: [f64; 3], end: [f64; 3], radius: f64) -> Result<Self, GeometryError> {
-        GeometryError::check_finite("cylinder", "start", start)?;
-        GeometryError::check_finite("cylinder", "end", end)?;
-        GeometryError::check_positive("cylinder", "radius", radius)?;
+        ParameterError::check_finite("cylinder", "start", start)?;
+        ParameterError::check_finite("cylinder", "end", end)?;
+        ParameterError::check_positive("cylinder", "radius", radius)?;
         let along = point::sub(end, start);
-        let length = GeometryError::check_positive(
+        let length = ParameterError::check_positive(
             "cylinder",
             "distance from start to end",
             point::norm(along),
@@ -57,9 +57,9 @@ impl Cylinder {
     /// sides.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless `within` is positive, or what [`Mesh::new`] finds where numbers overflow.
+    /// [`GeometryError::Parameter`] unless `within` is positive, or what [`Mesh::new`] finds where numbers overflow.
     pub fn mesh(&self, within: f64) -> Result<Mesh, GeometryError> {
-        GeometryError::check_positive("cylinder", "within", within)?;
+        ParameterError::check_positive("cylinder", "within", within)?;
         let sides = (PI / (2.0 * within / self.radius).sqrt()).clamp(24.0, 720.0);
         let sides = 4 * (sides / 4.0).ceil() as u32;
         let step = TAU / f64::from(sides);
@@ -184,9 +184,9 @@ impl Surface<3> for Cylinder {
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         if depth >= self.radius || 2.0 * depth >= self.length {
-            return Err(GeometryError::Vanished { depth });
+            return Err(InsetError::Vanished { depth }.into());
         }
         Ok(Arc::new(Self {
             start: point::add_scaled(self.start, depth, self.axis),

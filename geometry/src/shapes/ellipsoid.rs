@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use sphpack_neighbors::{Bounds, gauss, point};
 
-use crate::GeometryError;
 use crate::level_inset::LevelInset;
 use crate::surface::{Closest, Feature, Features, Surface};
+use crate::{GeometryError, InsetError, ParameterError};
 
 /// Most steps of the root search; seven or so are used.
 const MAX_STEPS: usize = 100;
@@ -36,11 +36,11 @@ impl<const D: usize> Ellipsoid<D> {
     /// The ellipsoid around `center` with the given half lengths along the axes, scene units.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless the centre is finite and every semi-axis positive.
+    /// [`GeometryError::Parameter`] unless the centre is finite and every semi-axis positive.
     pub fn new(center: [f64; D], semi_axes: [f64; D]) -> Result<Self, GeometryError> {
-        GeometryError::check_finite("ellipsoid", "center", center)?;
+        ParameterError::check_finite("ellipsoid", "center", center)?;
         for axis in semi_axes {
-            GeometryError::check_positive("ellipsoid", "semi-axis", axis)?;
+            ParameterError::check_positive("ellipsoid", "semi-axis", axis)?;
         }
         let (measure, mean_curvature) = integrals(semi_axes);
         Ok(Self {
@@ -185,10 +185,10 @@ impl<const D: usize> Surface<D> for Ellipsoid<D> {
     /// The level set φ = −`depth`. Its length or area and its content follow Steiner's formulas, exact while the
     /// depth stays below the smallest radius of curvature, and are integrated numerically beyond.
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         let (smallest, largest) = (self.smallest(), self.largest());
         if depth >= smallest {
-            return Err(GeometryError::Vanished { depth });
+            return Err(InsetError::Vanished { depth }.into());
         }
         let body: Arc<dyn Surface<D>> = Arc::new(*self);
         if depth > smallest * smallest / largest {

@@ -8,7 +8,7 @@ use sphpack_neighbors::point;
 
 use super::*;
 use crate::surface::{Feature, Surface};
-use crate::{GeometryError, Placed, Similarity};
+use crate::{GeometryError, InsetError, ParameterError, Placed, Similarity};
 
 /// What every surface must do at `p`.
 fn check<const D: usize>(body: &dyn Surface<D>, p: [f64; D]) {
@@ -156,7 +156,10 @@ fn contents() {
 #[test]
 fn bad_parameters() {
     let bad = |r: Result<(), GeometryError>| {
-        assert!(matches!(r, Err(GeometryError::BadParameter { .. })));
+        assert!(matches!(
+            r,
+            Err(GeometryError::Parameter(ParameterError::OutOfRange { .. }))
+        ));
     };
     bad(Ball::new([0.0; 2], 0.0).map(drop));
     bad(Ball::new([f64::NAN, 0.0], 1.0).map(drop));
@@ -182,6 +185,9 @@ fn bad_parameters() {
             .unwrap()
             .inset(1.0),
     ] {
-        assert!(matches!(vanished, Err(GeometryError::Vanished { .. })));
+        assert!(matches!(
+            vanished,
+            Err(GeometryError::Inset(InsetError::Vanished { .. }))
+        ));
     }
 }

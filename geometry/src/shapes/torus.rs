@@ -6,8 +6,8 @@ use std::sync::Arc;
 use sphpack_neighbors::{Bounds, point};
 
 use super::perpendicular;
-use crate::GeometryError;
 use crate::surface::{Closest, Feature, Features, Surface};
+use crate::{GeometryError, InsetError, ParameterError};
 
 /// A torus. Every query is O(1).
 ///
@@ -32,24 +32,25 @@ impl Torus {
     /// scene units.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless all is finite, the axis has a direction and 0 < minor < major.
+    /// [`GeometryError::Parameter`] unless all is finite, the axis has a direction and 0 < minor < major.
     pub fn new(
         center: [f64; 3],
         axis: [f64; 3],
         major: f64,
         minor: f64,
     ) -> Result<Self, GeometryError> {
-        GeometryError::check_finite("torus", "center", center)?;
-        GeometryError::check_positive("torus", "length of axis", point::norm(axis))?;
-        GeometryError::check_positive("torus", "major", major)?;
-        GeometryError::check_positive("torus", "minor", minor)?;
+        ParameterError::check_finite("torus", "center", center)?;
+        ParameterError::check_positive("torus", "length of axis", point::norm(axis))?;
+        ParameterError::check_positive("torus", "major", major)?;
+        ParameterError::check_positive("torus", "minor", minor)?;
         if minor >= major {
-            return Err(GeometryError::BadParameter {
-                shape: "torus",
+            return Err(ParameterError::OutOfRange {
+                of: "torus",
                 name: "minor",
                 value: minor,
                 needs: "smaller than major",
-            });
+            }
+            .into());
         }
         Ok(Self {
             center,
@@ -107,9 +108,9 @@ impl Surface<3> for Torus {
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
-        GeometryError::check_depth(depth)?;
+        ParameterError::check_depth(depth)?;
         if depth >= self.minor {
-            return Err(GeometryError::Vanished { depth });
+            return Err(InsetError::Vanished { depth }.into());
         }
         Ok(Arc::new(Self {
             minor: self.minor - depth,

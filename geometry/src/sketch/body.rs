@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use super::repair::OutlineRepair;
 use super::report::{LoopRole, OutlineDefectKind as Kind, OutlineReport};
 use super::{RepairedSketch, Sketch};
-use crate::{GeometryError, Outline};
+use crate::{GeometryError, Outline, OutlineError};
 
 /// A body, and what was done to its loops to make it one.
 #[derive(Debug, Clone)]
@@ -21,7 +21,7 @@ impl Sketch {
     /// is told.
     ///
     /// # Errors
-    /// [`GeometryError::Defective`] with every defect that is left and its cure, or what [`Outline::new`] finds.
+    /// [`OutlineError::Defective`] with every defect that is left and its cure, or what [`Outline::new`] finds.
     pub fn body(&self) -> Result<MendedOutline, GeometryError> {
         self.body_knowing(&self.check())
     }
@@ -51,7 +51,7 @@ impl RepairedSketch {
     /// The body that the mended loops bound.
     ///
     /// # Errors
-    /// [`GeometryError::Defective`] with every defect that is left and its cure, or what [`Outline::new`] finds.
+    /// [`OutlineError::Defective`] with every defect that is left and its cure, or what [`Outline::new`] finds.
     pub fn body(self) -> Result<MendedOutline, GeometryError> {
         let Self {
             sketch,
@@ -86,9 +86,10 @@ fn defective(report: &OutlineReport) -> GeometryError {
         .filter(|defect| !defect.kind.is_harmless())
         .map(|defect| format!("{defect}; {}", defect.kind.cure()))
         .collect();
-    GeometryError::Defective {
+    OutlineError::Defective {
         defects: words.join(". "),
     }
+    .into()
 }
 
 impl Outline {

@@ -10,7 +10,7 @@ mod trim;
 
 use sphpack_neighbors::point;
 
-use crate::GeometryError;
+use crate::{GeometryError, OutlineError};
 
 pub use body::MendedOutline;
 pub use repair::{OutlineRepair, RepairedSketch};
@@ -41,13 +41,14 @@ impl Sketch {
     /// Loops, each the points on its way round; the last may repeat the first. Scene units.
     ///
     /// # Errors
-    /// [`GeometryError::NotFinite`]; [`GeometryError::TooFewPoints`] where there is no loop at all.
+    /// [`OutlineError::NotFinite`]; [`OutlineError::TooFewPoints`] where there is no loop at all.
     pub fn new(loops: Vec<Vec<[f64; 2]>>) -> Result<Self, GeometryError> {
         if loops.is_empty() {
-            return Err(GeometryError::TooFewPoints {
+            return Err(OutlineError::TooFewPoints {
                 loop_index: 0,
                 count: 0,
-            });
+            }
+            .into());
         }
         // Squares must stay finite too, or every distance is infinite.
         let is_bad = |&p: &[f64; 2]| !point::norm_squared(p).is_finite();
@@ -56,10 +57,7 @@ impl Sketch {
                 loops,
                 done: Vec::new(),
             }),
-            Some(index) => Err(GeometryError::NotFinite {
-                what: "point",
-                index,
-            }),
+            Some(index) => Err(OutlineError::NotFinite { index }.into()),
         }
     }
 

@@ -10,7 +10,7 @@ use super::repair::{HoleLimit, Repair};
 use super::report::{DefectKind, MeshReport};
 use super::{Repaired, Soup, cracks};
 use crate::mesh::triangle;
-use crate::{Bvh, GeometryError, Mesh};
+use crate::{Bvh, GeometryError, Mesh, MeshError};
 
 /// A body, and what was done to its triangles to make it one.
 #[derive(Debug, Clone)]
@@ -27,7 +27,7 @@ impl Soup {
     /// out. Shells that touch along edges or in points stay as they are. Crossings within a shell stay where they are at most 500 and the triangles have less than 1 % of the area. What was done is told.
     ///
     /// # Errors
-    /// [`GeometryError::Defective`] with every defect that is left and its cure, or what [`Mesh::new`] finds.
+    /// [`MeshError::Defective`] with every defect that is left and its cure, or what [`Mesh::new`] finds.
     pub fn body(&self) -> Result<Mended, GeometryError> {
         self.body_knowing(&self.check())
     }
@@ -65,7 +65,7 @@ impl Repaired {
     /// The body that the mended triangles bound.
     ///
     /// # Errors
-    /// [`GeometryError::Defective`] with every defect that is left and its cure, or what [`Mesh::new`] finds.
+    /// [`MeshError::Defective`] with every defect that is left and its cure, or what [`Mesh::new`] finds.
     pub fn body(self) -> Result<Mended, GeometryError> {
         let Self {
             mut soup,
@@ -185,7 +185,8 @@ fn defective(report: &MeshReport) -> GeometryError {
         }
         words.push(format!("{text}; {}", defect.kind.cure()));
     }
-    GeometryError::Defective {
+    MeshError::Defective {
         defects: words.join(". "),
     }
+    .into()
 }

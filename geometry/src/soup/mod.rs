@@ -23,7 +23,7 @@ use rayon::prelude::*;
 use sphpack_neighbors::{Bounds, point};
 
 use crate::mesh::{topology, weld};
-use crate::{GeometryError, Similarity};
+use crate::{GeometryError, MeshError, Similarity};
 
 pub use body::Mended;
 pub use repair::{HoleLimit, Repair, Repaired};
@@ -63,7 +63,7 @@ impl Soup {
     /// `triangles`, three places in `vertices` each (scene units).
     ///
     /// # Errors
-    /// [`GeometryError::NotFinite`], [`GeometryError::BadIndex`].
+    /// [`MeshError::NotFinite`], [`MeshError::BadIndex`].
     pub fn new(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, GeometryError> {
         topology::check_places(&vertices, &triangles)?;
         Ok(Self {
@@ -77,14 +77,15 @@ impl Soup {
     /// 10⁻⁶ of the mesh's size are welded too, if that closes any.
     ///
     /// # Errors
-    /// [`GeometryError::NotFinite`].
+    /// [`MeshError::NotFinite`].
     pub fn from_loose(corners: &[[[f64; 3]; 3]]) -> Result<Self, GeometryError> {
         let is_bad = |t: &[[f64; 3]; 3]| t.iter().any(|&v| !point::norm_squared(v).is_finite());
         if let Some(index) = corners.par_iter().position_first(is_bad) {
-            return Err(GeometryError::NotFinite {
+            return Err(MeshError::NotFinite {
                 what: "triangle",
                 index,
-            });
+            }
+            .into());
         }
         let (vertices, triangles) = weld::exact(corners);
         let open = open_edges(&triangles);
@@ -111,7 +112,7 @@ impl Soup {
     /// The triangles scaled, rotated and moved.
     ///
     /// # Errors
-    /// [`GeometryError::NotFinite`] where numbers overflow.
+    /// [`MeshError::NotFinite`] where numbers overflow.
     pub fn transformed(&self, by: &Similarity<3>) -> Result<Self, GeometryError> {
         let vertices = self.vertices.iter().map(|&v| by.point(v)).collect();
         Ok(Self {

@@ -5,7 +5,7 @@ use sphpack_neighbors::point;
 
 use super::*;
 use crate::mesh::tests::icosphere;
-use crate::{Mesh, Similarity, Surface};
+use crate::{Mesh, MeshError, Similarity, Surface};
 
 fn soup_of(mesh: &Mesh) -> Soup {
     Soup::new(mesh.vertices().to_vec(), mesh.triangles().to_vec()).unwrap()
@@ -268,7 +268,10 @@ fn what_cannot_be_oriented_is_refused() {
     ]);
     assert!(flat.unwrap().body().is_err());
     let far = Soup::from_loose(&[[[f64::NAN; 3], [1.0; 3], [0.0; 3]]]);
-    assert!(matches!(far, Err(GeometryError::NotFinite { .. })));
+    assert!(matches!(
+        far,
+        Err(GeometryError::Mesh(MeshError::NotFinite { .. }))
+    ));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use sphpack_neighbors::{Bounds, point};
 
 use super::{HoleLimit, Mended, Repair, Soup};
 use crate::level_set::{Field, LevelSet};
-use crate::{FastWinding, GeometryError};
+use crate::{FastWinding, GeometryError, MeshError};
 
 /// Where the winding number is within this of ½, a hole may be near: there it varies smoothly from 0 to 1, while away
 /// from holes it jumps at the triangles.
@@ -80,8 +80,8 @@ impl Soup {
     /// [`LevelSet`] says.
     ///
     /// # Errors
-    /// [`GeometryError::BadParameter`] unless `cell` is positive, finite, and large enough for the grid;
-    /// [`GeometryError::NothingInside`] where no node is wound around.
+    /// [`GeometryError::Parameter`] unless `cell` is positive, finite, and large enough for the grid;
+    /// [`MeshError::NothingInside`] where no node is wound around.
     pub fn wrapped(&self, cell: f64) -> Result<Mended, GeometryError> {
         let Self {
             vertices,
@@ -94,7 +94,7 @@ impl Soup {
             .collect();
         let bounds = Bounds::of(corners.as_flattened());
         if corners.is_empty() {
-            return Err(GeometryError::NothingInside { cell });
+            return Err(MeshError::NothingInside { cell }.into());
         }
         let wound = Arc::new(Wound {
             winding: FastWinding::new(corners),
@@ -106,7 +106,7 @@ impl Soup {
         };
         let mesh = LevelSet::of_field(wound.clone(), cell, &bounds, near)?
             .mesh()?
-            .ok_or(GeometryError::NothingInside { cell })?;
+            .ok_or(MeshError::NothingInside { cell })?;
         let done = vec![Repair::Wrapped {
             cell,
             triangles: self.triangles.len(),
@@ -196,7 +196,7 @@ mod tests {
         let soup = Soup::from_loose(&sheet).unwrap();
         let error = soup.wrapped(0.1).unwrap_err();
         assert!(
-            matches!(error, GeometryError::NothingInside { .. }),
+            matches!(error, GeometryError::Mesh(MeshError::NothingInside { .. })),
             "{error}"
         );
         let none = Soup::from_loose(&[]).unwrap();

@@ -55,8 +55,8 @@ macro_rules! passed_on {
                     (**self).sample(count)
                 }
 
-                fn strew(&self, count: usize) -> Vec<Closest<D>> {
-                    (**self).strew(count)
+                fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+                    (**self).scatter(count)
                 }
 
                 fn closest_batch(&self, points: &[[f64; D]], radius: f64) -> Vec<Option<Closest<D>>> {
@@ -77,6 +77,7 @@ passed_on! { &S Box<S> Arc<S> }
 mod tests {
     use super::*;
     use crate::Feature;
+    use crate::InsetError;
 
     /// A surface whose every answer is its own: none is what an interface without it would say.
     #[derive(Debug)]
@@ -126,7 +127,7 @@ mod tests {
         }
 
         fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<2>>, GeometryError> {
-            Err(GeometryError::Vanished { depth })
+            Err(InsetError::Vanished { depth }.into())
         }
 
         fn parts(&self) -> Vec<Arc<dyn Surface<2>>> {
@@ -137,7 +138,7 @@ mod tests {
             Ok(vec![HIT; count + 1])
         }
 
-        fn strew(&self, count: usize) -> Vec<Closest<2>> {
+        fn scatter(&self, count: usize) -> Vec<Closest<2>> {
             vec![HIT; count + 2]
         }
 
@@ -160,10 +161,13 @@ mod tests {
         assert_eq!(surface.features(), Odd.features());
         assert_eq!(surface.window(), Odd.window());
         let inset = surface.inset(0.5).map(|_| ());
-        assert_eq!(inset, Err(GeometryError::Vanished { depth: 0.5 }));
+        assert_eq!(
+            inset,
+            Err(GeometryError::Inset(InsetError::Vanished { depth: 0.5 }))
+        );
         assert_eq!(surface.parts().len(), 2);
         assert_eq!(surface.sample(20), Ok(vec![HIT; 21]));
-        assert_eq!(surface.strew(20), vec![HIT; 22]);
+        assert_eq!(surface.scatter(20), vec![HIT; 22]);
         assert_eq!(surface.closest_batch(&[[0.0; 2]; 5], 1.0).len(), 8);
         assert_eq!(surface.inside_batch(&[[0.0; 2]; 5]).len(), 9);
     }

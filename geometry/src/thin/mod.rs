@@ -6,9 +6,9 @@ mod spread;
 #[cfg(test)]
 mod tests;
 
-use crate::GeometryError;
 use crate::surface::{Closest, Surface};
 use crate::thickness::through;
+use crate::{GeometryError, ParameterError};
 use shares::Shares;
 use sphpack_neighbors::point;
 
@@ -88,7 +88,7 @@ pub struct SurfaceSamples<const D: usize> {
 /// ```
 ///
 /// # Errors
-/// As [`Surface::sample`], and [`GeometryError::BadParameter`] for a spacing that is not positive, a depth that is
+/// As [`Surface::sample`], and [`GeometryError::Parameter`] for a spacing that is not positive, a depth that is
 /// negative, or a depth of 0 without a surface.
 pub fn sample_particles<const D: usize>(
     body: &dyn Surface<D>,
@@ -112,15 +112,16 @@ pub fn sample_thin<const D: usize>(
     depth: f64,
     thin: Thin,
 ) -> Result<SurfaceSamples<D>, GeometryError> {
-    GeometryError::check_positive("sample", "spacing", spacing)?;
-    GeometryError::check_depth(depth)?;
+    ParameterError::check_positive("sample", "spacing", spacing)?;
+    ParameterError::check_depth(depth)?;
     if depth == 0.0 && inset.is_none() {
-        return Err(GeometryError::BadParameter {
-            shape: "sample",
+        return Err(ParameterError::OutOfRange {
+            of: "sample",
             name: "depth",
             value: depth,
             needs: "positive where there is no surface",
-        });
+        }
+        .into());
     }
     let area_each = spacing.powi(D as i32 - 1);
     if let Some(surface) = inset {
@@ -169,7 +170,7 @@ fn as_if_thick<const D: usize>(
 fn is_thin<const D: usize>(body: &dyn Surface<D>, count: f64, limit: f64) -> bool {
     use rayon::prelude::*;
     let probes = (PROBES_PER_POINT * count).clamp(FEWEST_PROBES, MOST_PROBES);
-    let hits = body.strew(probes as usize);
+    let hits = body.scatter(probes as usize);
     hits.par_iter()
         .with_min_len(64)
         .any(|hit| through(body, hit.point, point::scale(hit.normal, -1.0), limit) < THIN * limit)

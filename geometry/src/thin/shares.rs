@@ -4,9 +4,9 @@ use rayon::prelude::*;
 use sphpack_neighbors::{KdTree, point};
 
 use super::Thin;
-use crate::GeometryError;
 use crate::surface::{Closest, Surface};
 use crate::thickness::{Touching, through};
+use crate::{GeometryError, ParameterError};
 
 /// Places per particle's area on the surface.
 const PLACES: f64 = 8.0;
@@ -104,14 +104,15 @@ impl<const D: usize> Shares<D> {
         thin: Thin,
     ) -> Result<Self, GeometryError> {
         let count = PLACES * body.measure() / spacing.powi(D as i32 - 1);
-        let feet = body.strew(count.clamp(FEWEST, MOST) as usize);
+        let feet = body.scatter(count.clamp(FEWEST, MOST) as usize);
         if feet.is_empty() {
-            return Err(GeometryError::BadParameter {
-                shape: "sample",
+            return Err(ParameterError::OutOfRange {
+                of: "sample",
                 name: "area of the surface",
                 value: body.measure(),
                 needs: "large enough to be found, in 2 or 3 dimensions",
-            });
+            }
+            .into());
         }
         let limit = spacing.max(DEEP * depth);
         let area = body.measure() / feet.len() as f64;
@@ -270,12 +271,14 @@ fn look<const D: usize>(body: &dyn Surface<D>, foot: &Closest<D>, limit: f64) ->
 
 /// A tree over points, which are finite.
 pub(super) fn tree<const D: usize>(points: &[[f64; D]]) -> Result<KdTree<D>, GeometryError> {
-    KdTree::new(points).map_err(|_| GeometryError::NotFinite {
-        what: "point",
-        index: points
-            .iter()
-            .position(|&p| !point::is_finite(p))
-            .unwrap_or(0),
+    KdTree::new(points).map_err(|_| {
+        ParameterError::OutOfRange {
+            of: "sample",
+            name: "coordinate of a point",
+            value: (points.iter().flatten().copied().find(|x| !x.is_finite())).unwrap_or(f64::NAN),
+            needs: "finite",
+        }
+        .into()
     })
 }
 

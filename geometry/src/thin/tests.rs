@@ -357,7 +357,7 @@ fn thickness_is_that_between_opposite_sides() {
         })
         .collect();
     let faceted = Outline::polygon(&ring).unwrap();
-    for hit in faceted.strew(200) {
+    for hit in faceted.scatter(200) {
         assert_eq!(thickness(&faceted, &hit, 0.5), 0.5);
     }
 }

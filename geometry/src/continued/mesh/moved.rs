@@ -100,7 +100,7 @@ impl Whole<3> for Moved {
         features_in(self.inset.features(), domain)
     }
 
-    fn strewn_in(&self, domain: &Domain<3>, count: usize) -> Candidates<3> {
+    fn scattered_in(&self, domain: &Domain<3>, count: usize) -> Candidates<3> {
         let spacing = (self.contents(domain).0 / count.max(1) as f64).sqrt();
         let mut found = self.candidates(domain, spacing, count, THOROUGH);
         for (p, n) in found.point.iter_mut().zip(&mut found.normal) {
@@ -122,7 +122,7 @@ impl Whole<3> for Moved {
         surface: &Continued<3>,
         count: usize,
     ) -> Result<Vec<Closest<3>>, GeometryError> {
-        let strew = |spacing, wanted| self.candidates(&surface.domain, spacing, wanted, QUICK);
-        spread(surface, count, &|p| surface.closest(p), strew)
+        let scatter = |spacing, wanted| self.candidates(&surface.domain, spacing, wanted, QUICK);
+        spread(surface, count, &|p| surface.closest(p), scatter)
     }
 }

@@ -9,7 +9,7 @@ use self::header::{Element, Encoding, Scalar};
 use self::numbers::{BinaryNumbers, Numbers, TextNumbers};
 use super::lines::whole;
 use super::{Faces, Solid, loosened};
-use crate::GeometryError;
+use crate::{GeometryError, MeshError};
 
 /// One part without a name. Elements and properties other than vertices' x, y, z and the lists of vertices of faces
 /// and strips are passed over.
@@ -40,11 +40,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Solid>, GeometryError> {
     }
     for (triangle, corners) in triangles.iter().enumerate() {
         if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices.len()) {
-            return Err(GeometryError::BadIndex {
+            return Err(MeshError::BadIndex {
                 triangle,
                 vertex: vertex as usize,
                 vertices: vertices.len(),
-            });
+            }
+            .into());
         }
     }
     loosened(&vertices, vec![(String::new(), faces)])
@@ -117,10 +118,11 @@ impl PolygonSurface {
                 numbers.end()?;
                 if is_vertex {
                     if !point::is_finite(vertex) {
-                        return Err(GeometryError::NotFinite {
+                        return Err(MeshError::NotFinite {
                             what: "vertex",
                             index: self.vertices.len(),
-                        });
+                        }
+                        .into());
                     }
                     self.vertices.push(vertex);
                 } else if columns.iter().any(|column| column.0 == Use::Strip) {

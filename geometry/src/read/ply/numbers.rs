@@ -1,8 +1,8 @@
 //! The numbers after the head of a PLY file, one after another, as text or binary.
 
 use super::header::Scalar;
-use crate::GeometryError;
 use crate::read::lines::{Lines, row, shown, words};
+use crate::{GeometryError, ReadError};
 
 /// Where rows of numbers come from.
 pub(super) trait Numbers {
@@ -145,9 +145,10 @@ impl<const BIG_ENDIAN: bool> Numbers for BinaryNumbers<'_, BIG_ENDIAN> {
     }
 
     fn fault(&self, reason: String) -> GeometryError {
-        GeometryError::BadByte {
+        ReadError::BadByte {
             offset: self.row,
             reason,
         }
+        .into()
     }
 }

@@ -6,7 +6,7 @@ use super::{GROWTH, cut, grow};
 use crate::soup::Soup;
 use crate::soup::check::Survey;
 use crate::soup::crossings::{self, Meeting};
-use crate::{GeometryError, Mesh};
+use crate::{CutError, GeometryError, Mesh};
 
 impl Mesh {
     /// What is left of the body where `other` has all its room; `None` where nothing is. Exact to rounding where the
@@ -14,17 +14,17 @@ impl Mesh {
     /// first. O(n log n) for n triangles of both that spread out.
     ///
     /// # Errors
-    /// [`GeometryError::NotCut`] where the result would not be a closed mesh that agrees with the winding numbers of
+    /// [`CutError::NotCut`] where the result would not be a closed mesh that agrees with the winding numbers of
     /// the two.
     pub fn minus(&self, other: &Self) -> Result<Option<Self>, GeometryError> {
         let soup = |mesh: &Self| Soup::new(mesh.vertices().to_vec(), mesh.triangles().to_vec());
-        let left = minus(&soup(self)?, &soup(other)?).ok_or(GeometryError::NotCut)?;
+        let left = minus(&soup(self)?, &soup(other)?).ok_or(CutError::NotCut)?;
         if left.triangles.is_empty() {
             return Ok(None);
         }
         Self::new(left.vertices, left.triangles)
             .map(Some)
-            .map_err(|_| GeometryError::NotCut)
+            .map_err(|_| CutError::NotCut.into())
     }
 }
 

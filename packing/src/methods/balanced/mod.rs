@@ -13,7 +13,9 @@ mod tests;
 use std::sync::Arc;
 use std::time::Instant;
 
-use sphpack_geometry::{Closest, Feature, GeometryError, Surface, SurfaceSamples, sample_thin};
+use sphpack_geometry::{
+    Closest, Feature, GeometryError, InsetError, Surface, SurfaceSamples, sample_thin,
+};
 use sphpack_neighbors::point;
 
 use crate::depths::Depths;
@@ -94,7 +96,7 @@ impl Balanced {
                 let depth = body.inset_over_spacing * problem.spacing();
                 return Err(PackingError::Surface {
                     body: body.name.clone(),
-                    source: GeometryError::Vanished { depth },
+                    source: InsetError::Vanished { depth }.into(),
                 });
             }
         }
@@ -344,7 +346,7 @@ fn inset<const D: usize>(
     }
     match body.surface.inset(depth) {
         Ok(inset) => Ok(Some(inset)),
-        Err(GeometryError::Vanished { .. }) => Ok(None),
+        Err(GeometryError::Inset(InsetError::Vanished { .. })) => Ok(None),
         Err(source) => Err(PackingError::Surface {
             body: body.name.clone(),
             source,

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use rayon::prelude::*;
-use sphpack_geometry::{Closest, GeometryError, Surface};
+use sphpack_geometry::{Closest, GeometryError, InsetError, Surface};
 use sphpack_neighbors::{KdTree, point};
 
 use super::fluid_side::{around_body, tightest, within_body};
@@ -331,7 +331,7 @@ impl Ppa {
                 };
                 match found {
                     Ok(found) => points.extend(found),
-                    Err(GeometryError::Vanished { .. }) => break,
+                    Err(GeometryError::Inset(InsetError::Vanished { .. })) => break,
                     Err(error) => return Err(fail(error)),
                 }
             }

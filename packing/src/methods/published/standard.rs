@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use sphpack_geometry::{Feature, GeometryError, LevelInset, Surface};
+use sphpack_geometry::{Feature, GeometryError, InsetError, LevelInset, Surface};
 use sphpack_neighbors::{KdTree, point};
 
 use super::motion::Motion;
@@ -170,7 +170,7 @@ fn layers<const D: usize>(
             };
             let surface = match inset {
                 Ok(surface) => surface,
-                Err(GeometryError::Vanished { .. }) => break,
+                Err(GeometryError::Inset(InsetError::Vanished { .. })) => break,
                 Err(error) => return Err(fail(error)),
             };
             // As many as fit at a distance of ∆s.

@@ -1,4 +1,4 @@
-//! Points strewn over a mesh by area.
+//! Points scattered over a mesh by area.
 
 use super::{Mesh, triangle};
 use crate::sample::Candidates;
@@ -9,7 +9,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 impl Mesh {
     /// `wanted` points, each standing for the same area. The triangles are in the order of the tree, so that points
     /// taken at equal steps of area are spread in space as well.
-    pub(super) fn strewn(&self, wanted: usize) -> Candidates<3> {
+    pub(super) fn scattered(&self, wanted: usize) -> Candidates<3> {
         let numbers: Vec<usize> = (0..self.corners.len()).collect();
         let mut across = 0.5;
         Candidates::systematic(
