@@ -2,17 +2,21 @@
 
 mod anew;
 mod anyone;
+mod packed;
 
 use std::time::Instant;
 
 use serde::Serialize;
 use sphpack_neighbors::{point, words};
 use sphpack_packing::closest_pair::CROWDED;
-use sphpack_packing::{Depths, Kind};
+use sphpack_packing::{Depths, Kind, MethodInfo};
 use sphpack_separation::Side;
 
-use crate::scene::{Role, Scene};
+use crate::asked::Asked;
+use crate::scene::Role;
 use crate::solution::Solution;
+
+pub use packed::{Audited, Unsound};
 
 /// A particle is on the wrong side of a true surface that is deeper behind it than this, in ∆s.
 const WRONG_SIDE_OVER_SPACING: f64 = 0.1;
@@ -89,7 +93,7 @@ impl Audit {
 
     /// Audits a separated packing. `volumes` are those of every body's particles, and of the fluid's last.
     pub(crate) fn of<const D: usize>(
-        scene: &Scene,
+        asked: &Asked,
         solution: &Solution<D>,
         volumes: &[f64],
     ) -> Self {
@@ -105,13 +109,13 @@ impl Audit {
         if audit.passed {
             audit.places(solution);
             audit.pairs(solution);
-            audit.volumes(scene, solution, volumes);
-            audit.sides(scene, solution);
-            audit.density(scene, solution);
+            audit.volumes(asked, solution, volumes);
+            audit.sides(asked, solution);
+            audit.density(asked, solution);
             audit.sums(solution);
         }
         if !audit.passed {
-            audit.messages.push(cure(scene));
+            audit.messages.push(cure(asked.method));
         }
         audit.seconds = begin.elapsed().as_secs_f64();
         audit
@@ -192,8 +196,7 @@ impl Audit {
     }
 
     /// Every body has the volume that was asked for, and all together the box's.
-    fn volumes<const D: usize>(&mut self, scene: &Scene, solution: &Solution<D>, volumes: &[f64]) {
-        let info = scene.packing.method.info();
+    fn volumes<const D: usize>(&mut self, asked: &Asked, solution: &Solution<D>, volumes: &[f64]) {
         let problem = &solution.problem;
         let particles = &solution.packed.particles;
         let site = problem.filling().volume_per_site();
@@ -206,14 +209,8 @@ impl Audit {
         for (room, excess) in rooms.iter_mut().zip(&solution.packed.excess) {
             *room += excess;
         }
-        let solid = |b: usize| {
-            scene
-                .body
-                .get(b)
-                .is_none_or(|body| body.role == Role::Solid)
-        };
         for (number, body) in problem.bodies.iter().enumerate() {
-            if !solid(number) {
+            if asked.role(number) != Role::Solid {
                 continue;
             }
             let (asked, has) = (rooms[number], volumes[number]);
@@ -229,7 +226,7 @@ impl Audit {
                 self.found(message, Some(body.surface.bounds().center()));
             }
         }
-        if info.fills_box {
+        if asked.method.fills_box {
             let whole = problem.domain.bounds.volume();
             let sum: f64 = (0..particles.len())
                 .filter(|&i| particles.kind[i] != Kind::Frozen)
@@ -252,7 +249,7 @@ impl Audit {
     }
 
     /// Every particle is where its label says, by the exact closest point.
-    fn sides<const D: usize>(&mut self, scene: &Scene, solution: &Solution<D>) {
+    fn sides<const D: usize>(&mut self, asked: &Asked, solution: &Solution<D>) {
         let Solution {
             problem,
             packed,
@@ -280,7 +277,7 @@ impl Audit {
         let slack = WRONG_SIDE_OVER_SPACING * spacing;
         let bounds = problem.domain.bounds;
         let depths = Depths::of(&problem.bodies, bounds, spacing, slack, &places);
-        let role = |b: usize| scene.body.get(b).map_or(Role::Solid, |body| body.role);
+        let role = |b: usize| asked.role(b);
         let mut count = 0;
         let mut worst = (0.0, [0.0; D], String::new());
         for (place, &i) in free.iter().enumerate() {
@@ -336,8 +333,8 @@ impl Audit {
     }
 
     /// Γ is what the method can do.
-    fn density<const D: usize>(&mut self, scene: &Scene, solution: &Solution<D>) {
-        let within = scene.packing.method.info().gamma_within;
+    fn density<const D: usize>(&mut self, asked: &Asked, solution: &Solution<D>) {
+        let within = asked.method.gamma_within;
         let (fields, particles) = (&solution.fields, &solution.packed.particles);
         let lattice = solution.quality.density.lattice;
         let mut worst = (0.0, [0.0; D], 0.0);
@@ -353,7 +350,7 @@ impl Audit {
                 100.0 * worst.0,
                 worst.2,
                 100.0 * within,
-                scene.packing.method.name()
+                asked.method.name
             );
             self.found(message, Some(worst.1));
         }
@@ -368,8 +365,7 @@ fn particles_are(count: usize) -> String {
 }
 
 /// What most likely helps.
-fn cure(scene: &Scene) -> String {
-    let info = scene.packing.method.info();
+fn cure(info: &MethodInfo) -> String {
     if info.is_published {
         format!(
             "method \"{}\" does as its paper says, which does not keep this from happening; method = \"balanced\" does better, or a smaller spacing",

@@ -4,7 +4,8 @@ use sphpack_geometry::Surface;
 use sphpack_packing::{Kind, Packed};
 use sphpack_separation::{Labels, SeparationError, Side, separate_by_flood};
 
-use crate::scene::{Role, Scene};
+use crate::asked::Asked;
+use crate::scene::Role;
 
 /// How near to a surface particles are asked about it, in ∆s; the others follow their neighbours.
 const REACH_OVER_SPACING: f64 = 2.0;
@@ -29,15 +30,10 @@ const AT_ONCE: usize = 1 << 18;
 /// Frozen particles count as fluid, and as beyond any wall.
 pub(crate) fn sort<const D: usize>(
     packed: &Packed<D>,
-    scene: &Scene,
+    asked: &Asked,
 ) -> Result<Sorted, SeparationError> {
     let particles = &packed.particles;
-    let role = |body: u16| {
-        scene
-            .body
-            .get(usize::from(body))
-            .map_or(Role::Solid, |b| b.role)
-    };
+    let role = |body: u16| asked.role(usize::from(body));
     // The bodies that hold their inside.
     let holders: Vec<u16> = (0..packed.surfaces.len() as u16)
         .filter(|&body| role(body) != Role::Container)
@@ -76,7 +72,7 @@ pub(crate) fn sort<const D: usize>(
         match (body, sits_on) {
             (_, Some(wall)) if role(wall) == Role::Container => labels.body[i] = Some(wall),
             (Some(void), _) if role(void) == Role::Void => {
-                let is_exact = scene.body[usize::from(void)].surface.0 == 0.0;
+                let is_exact = packed.problem.bodies[usize::from(void)].inset_over_spacing == 0.0;
                 keep[i] = sits_on == Some(void) && is_exact;
                 if keep[i] {
                     let around = |&solid: &u16| {
@@ -107,7 +103,7 @@ pub(crate) fn sort<const D: usize>(
         }
     }
     for i in 0..particles.len() {
-        let is_left_out = (!scene.fluid.fill && labels.side[i] == Side::Fluid)
+        let is_left_out = (!asked.has_fluid && labels.side[i] == Side::Fluid)
             || (is_contained && particles.kind[i] == Kind::Frozen);
         keep[i] &= !is_left_out;
     }

@@ -7,6 +7,7 @@ use sphpack_separation::Side;
 use std::time::Instant;
 
 use crate::Error;
+use crate::asked::Asked;
 use crate::audit::Audit;
 use crate::body_file::ReadBody;
 use crate::dimension::{Dimension, Space, in_dimension};
@@ -83,7 +84,8 @@ where
     let scene = &resolved;
     let mut packed = pack(&problem, scene, observer)?;
     let measuring = Instant::now();
-    let sorted = sort(&packed, scene)
+    let asked = Asked::by(scene);
+    let sorted = sort(&packed, &asked)
         .map_err(|e| Error::System(format!("particles cannot be separated: {e}")))?;
     let judge = judged(&problem, scene);
     let masses = (scene.packing.masses == Masses::Corrected)
@@ -100,7 +102,7 @@ where
         quality,
     };
     let volumes = content::volumes(&solution.problem, &solution);
-    let audit = Audit::of(scene, &solution, &volumes);
+    let audit = Audit::of(&asked, &solution, &volumes);
     let mut table = table(scene, &solution).kept_by_id(&solution.keep);
     if !audit.passed && solution.packed.stop_reason == StopReason::Converged {
         table.stop_reason = UNSOUND.to_owned();

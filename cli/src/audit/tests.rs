@@ -4,6 +4,7 @@ use sphpack_packing::{Kind, Silent};
 use sphpack_separation::Side;
 
 use super::Audit;
+use crate::asked::Asked;
 use crate::content;
 use crate::run::{Options, run};
 use crate::scene::Scene;
@@ -37,7 +38,7 @@ fn after(damage: impl Fn(&mut Solution<2>)) -> Audit {
     solution.fields = packed.fields(packed.kernel, packed.h_over_spacing);
     solution.quality = packed.quality_by(&solution.fields);
     let volumes = content::volumes(&solution.problem, &solution);
-    Audit::of(&scene, &solution, &volumes)
+    Audit::of(&Asked::by(&scene), &solution, &volumes)
 }
 
 #[track_caller]
@@ -160,7 +161,11 @@ fn sums_that_are_not_those_of_the_neighbours_are_found() {
         .position(|&kind| kind != Kind::Frozen)
         .expect("a particle");
     solution.fields.gamma[i] += 1e-8;
-    let found = |solution: &Solution<2>| Audit::of(&scene, solution, &volumes).messages.concat();
+    let found = |solution: &Solution<2>| {
+        Audit::of(&Asked::by(&scene), solution, &volumes)
+            .messages
+            .concat()
+    };
     assert!(found(&solution).contains("gamma of particle"));
     solution.fields.gamma[i] -= 1e-8;
     solution.fields.gradient[i][0] *= 1.01;
