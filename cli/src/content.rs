@@ -18,8 +18,7 @@ pub(crate) fn volumes<const D: usize>(problem: &Problem<D>, solution: &Solution<
     let mut volumes = vec![0.0; bodies.len() + 1];
     for i in (0..particles.len()).filter(|&i| particles.kind[i] != Kind::Frozen) {
         let volume = particles.volume[i];
-        let on = (particles.body[i].map(usize::from))
-            .filter(|_| particles.kind[i].is_on_surface())
+        let on = (particles.on_surface(i).map(usize::from))
             .map(|own| (own, bodies[own].inner_share()))
             .filter(|(_, share)| *share < 1.0);
         let holder = labels.body[i].map_or(bodies.len(), usize::from);

@@ -46,7 +46,7 @@ pub(crate) fn sort<const D: usize>(
     let on_surface: Vec<Option<u16>> = inner
         .iter()
         .map(|&i| {
-            let body = particles.body[i].filter(|_| particles.kind[i].is_on_surface())?;
+            let body = particles.on_surface(i)?;
             place_of(&holders, body)
         })
         .collect();
@@ -67,7 +67,7 @@ pub(crate) fn sort<const D: usize>(
     };
     let mut keep = vec![true; particles.len()];
     for (&i, held) in inner.iter().zip(&held) {
-        let sits_on = particles.body[i].filter(|_| particles.kind[i].is_on_surface());
+        let sits_on = particles.on_surface(i);
         let body = held.map(|place| holders[usize::from(place)]);
         match (body, sits_on) {
             (_, Some(wall)) if role(wall) == Role::Container => labels.body[i] = Some(wall),

@@ -159,7 +159,7 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .map_or_else(|| rest_density(i), |rest| rest.density)
     };
     let normal = |i: usize| {
-        let on = particles.body[i].filter(|_| particles.kind[i].is_on_surface())?;
+        let on = particles.on_surface(i)?;
         let surface = &packed.surfaces.get(usize::from(on))?.surface;
         let hit = surface.closest(particles.position[i]);
         Some((particles.id[i], point::of_slice(&hit.normal)))

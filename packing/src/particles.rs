@@ -77,8 +77,8 @@ pub struct Particles<const D: usize> {
     pub kind: Vec<Kind>,
     /// Volume (area in 2-D) of each particle, scene units to the power D.
     pub volume: Vec<f64>,
-    /// For boundary and fixed particles the index of the body whose surface they sit on; for free ones that of the body
-    /// that they were placed in, by methods that know.
+    /// The index of the body that each is part of; `None` for the fluid, and for free particles of methods that do not know
+    /// ([`Packed::knows_sides`](crate::Packed::knows_sides)).
     pub body: Vec<Option<u16>>,
     /// Spacing and smoothing length of each.
     pub sizes: Sizes,
@@ -119,6 +119,12 @@ impl<const D: usize> Particles<D> {
         self.kind.push(kind);
         self.volume.push(volume);
         self.body.push(body);
+    }
+
+    /// The body whose surface particle `i` sits on; `None` for a particle on none.
+    #[inline]
+    pub fn on_surface(&self, i: usize) -> Option<u16> {
+        self.body[i].filter(|_| self.kind[i].is_on_surface())
     }
 
     /// How many particles are of a kind.

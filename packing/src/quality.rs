@@ -332,7 +332,7 @@ impl<const D: usize> Packed<D> {
     ) -> SurfaceQuality {
         let particles = &self.particles;
         let on: Vec<[f64; D]> = (0..particles.len())
-            .filter(|&i| particles.kind[i].is_on_surface() && particles.body[i] == Some(body))
+            .filter(|&i| particles.on_surface(i) == Some(body))
             .map(|i| particles.position[i])
             .collect();
         // Fixed particles in the middle of a thin part are on no surface.
