@@ -271,7 +271,7 @@ where
         bodies: Vec::new(),
         kernel: scene.packing.kernel(),
         h_over_spacing: scene.packing.h_over_spacing(),
-        seen_within: {
+        judging_reach: {
             let (kernel, h_over_spacing) = scene.judge();
             kernel.support_over_h() * h_over_spacing * scene.spacing
         },

@@ -153,7 +153,7 @@ impl<const D: usize> Problem<D> {
         let settling = moving * (work.bytes[D - 2] + work.lists * listed(self.reach()))
             + work.lists * seen * SEEN_BYTES
             + confining;
-        let judged = listed(self.support().max(self.seen_within));
+        let judged = listed(self.support().max(self.judging_reach));
         let measuring =
             all * (SEEN_BYTES - PARTICLE_BYTES) + judged * particles.min(slabs::MOST as f64);
         let kept = all * COLUMN_BYTES[D - 2] + all.min(MOST_HELD) * HELD_BYTES[D - 2];

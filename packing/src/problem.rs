@@ -66,7 +66,7 @@ pub struct Problem<const D: usize> {
     pub frozen: FrozenLayout,
     /// Frozen particles reach at least as far as a kernel of this support (scene units) sees, for whoever judges with a
     /// longer kernel than packs; 0 where nobody does.
-    pub seen_within: f64,
+    pub judging_reach: f64,
     /// Where a search for the lattice's phase begins; another seed gives another, equally good packing.
     pub seed: u64,
 }
@@ -221,7 +221,7 @@ impl<const D: usize> Problem<D> {
             h_over_spacing: 1.2,
             lattice: None,
             frozen: FrozenLayout::default(),
-            seen_within: 0.0,
+            judging_reach: 0.0,
             seed: 0,
         }
     }
@@ -318,9 +318,9 @@ impl<const D: usize> Problem<D> {
             .fill(self.domain.bounds, self.spacing())
     }
 
-    /// How deep the frozen layer is, scene units: the longer of [`Problem::reach`] and [`Problem::seen_within`].
+    /// How deep the frozen layer is, scene units: the longer of [`Problem::reach`] and [`Problem::judging_reach`].
     pub fn frozen_depth(&self) -> f64 {
-        self.reach().max(self.seen_within)
+        self.reach().max(self.judging_reach)
     }
 
     /// What the neighbour lists hold, scene units: the support and their skin.

@@ -12,7 +12,7 @@ use crate::Error;
 use crate::body_file::body_format;
 use crate::error::{BAD_INPUT, DONE};
 use crate::examined::{Examine, Examined, Mend, MendedBody};
-use crate::files::WholeFiles;
+use crate::files::AtomicFiles;
 use crate::findings::{DefectFound, MeshFindings, OutlineFindings};
 use crate::picture::grouped;
 
@@ -88,7 +88,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
         },
     };
     let (examined, body) = Examined::of(&arguments.body, &what)?;
-    let mut files = WholeFiles::new(arguments.force);
+    let mut files = AtomicFiles::new(arguments.force);
     let mut written = Vec::new();
     if let (Some(path), Some(body)) = (&arguments.repair, &body) {
         match body {

@@ -5,7 +5,7 @@ use super::plain_text::visible;
 use super::{outputs, say};
 use crate::Error;
 use crate::error::DONE;
-use crate::files::WholeFiles;
+use crate::files::AtomicFiles;
 use crate::scene::TEMPLATE;
 
 pub(super) fn run(arguments: &InitArguments) -> Result<u8, Error> {
@@ -14,7 +14,7 @@ pub(super) fn run(arguments: &InitArguments) -> Result<u8, Error> {
         return Ok(DONE);
     };
     outputs::check(&[path], &[], arguments.force)?;
-    let mut files = WholeFiles::new(arguments.force);
+    let mut files = AtomicFiles::new(arguments.force);
     files.write(path, |to| to.write_all(TEMPLATE.as_bytes()))?;
     files.finish()?;
     say(&format!(

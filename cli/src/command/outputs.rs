@@ -5,7 +5,7 @@ use std::io;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use crate::Error;
-use crate::files::WholeFiles;
+use crate::files::AtomicFiles;
 
 /// Refuses what cannot be the name of a file, whatever its format and wherever it is.
 pub(super) fn check_name(path: &Path) -> Result<(), Error> {
@@ -59,7 +59,7 @@ pub(super) fn check(
             ));
         }
         refuse_taken(path, may_replace)?;
-        WholeFiles::try_folder(path).map_err(|e| {
+        AtomicFiles::try_folder(path).map_err(|e| {
             let folder = shown(path);
             Error::input(
                 path,

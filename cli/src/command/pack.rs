@@ -17,7 +17,7 @@ use super::progress::Watcher;
 use super::{interrupt, memory_guard, outputs, say, summary, threads};
 use crate::Error;
 use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};
-use crate::files::{ParticleFormat, WholeFiles, compare};
+use crate::files::{AtomicFiles, ParticleFormat, compare};
 use crate::picture::{PictureFormat, Subject, draw};
 use crate::plan::{available_bytes, dimension, plan};
 use crate::report::peak_memory_bytes;
@@ -189,7 +189,7 @@ fn rescue(rows: &Table, path: &Path, format: ParticleFormat) -> Option<PathBuf> 
     let ending = path.extension()?.to_string_lossy();
     let name = format!("{stem}.rescued-{}.{ending}", std::process::id());
     let elsewhere = std::env::temp_dir().join(name);
-    let mut files = WholeFiles::new(false);
+    let mut files = AtomicFiles::new(false);
     (files.write(&elsewhere, |to| format.write(rows, to))).ok()?;
     files.finish().ok()?;
     Some(elsewhere)
@@ -275,7 +275,7 @@ impl Files {
         begin: Instant,
     ) -> Result<Vec<String>, Error> {
         let writing = Instant::now();
-        let mut files = WholeFiles::new(may_replace);
+        let mut files = AtomicFiles::new(may_replace);
         let shown = |path: &Path| visible(&path.display().to_string());
         let mut written = Vec::new();
         let table = &outcome.table;

@@ -15,7 +15,7 @@ use crate::table::Table;
 /// # Errors
 /// Those of `to`; where a number is not finite, before anything is written.
 pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
-    super::sound::check(table)?;
+    super::validate::check(table)?;
     let space = table.dimension == 3;
     let has_pressure = !table.pressure.is_empty();
     let more = if has_pressure {

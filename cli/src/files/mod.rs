@@ -2,6 +2,9 @@
 
 mod any_read;
 mod arrays;
+mod atomic;
+#[cfg(test)]
+mod atomic_tests;
 mod columns;
 mod csv;
 mod csv_header;
@@ -18,19 +21,16 @@ mod ply;
 mod ply_read;
 mod read_back;
 mod size_limit;
-mod sound;
 mod temporary;
 #[cfg(test)]
 mod tests;
+mod validate;
 mod vtk;
 mod vtk_read;
 mod vtk_xml;
 mod vtp;
 mod vtu;
 mod vtu_read;
-mod whole;
-#[cfg(test)]
-mod whole_tests;
 mod zip;
 
 use std::fs::{self, File};
@@ -39,6 +39,7 @@ use std::path::Path;
 
 use crate::Error;
 
+pub(crate) use atomic::{AtomicFiles, replace};
 pub use columns::Columns;
 pub use csv::{read_csv, write_csv};
 pub use format::{PARTICLE_FORMATS, ParticleFormat};
@@ -54,7 +55,6 @@ pub use vtk_read::read_vtk;
 pub use vtp::write_vtp;
 pub use vtu::write_vtu;
 pub use vtu_read::read_vtu;
-pub(crate) use whole::{WholeFiles, replace};
 
 /// The largest input that is read into memory, bytes.
 pub(crate) const MAX_INPUT: u64 = 8 << 30;

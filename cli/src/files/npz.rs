@@ -17,7 +17,7 @@ use crate::table::Table;
 /// # Errors
 /// Those of `to`; where a number is not finite, before anything is written.
 pub fn write_npz(table: &Table, to: &mut dyn Write) -> io::Result<()> {
-    super::sound::check(table)?;
+    super::validate::check(table)?;
     let mut archive = Zip::new(to);
     write(table, &mut archive)?;
     let remark = match table.stop_reason.as_str() {

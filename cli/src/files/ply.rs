@@ -13,7 +13,7 @@ use crate::table::Table;
 /// # Errors
 /// Those of `to`; where a number is not finite, before anything is written.
 pub fn write_ply(table: &Table, to: &mut dyn Write) -> io::Result<()> {
-    super::sound::check(table)?;
+    super::validate::check(table)?;
     let mut all = vec![
         Array::float("x", |i| table.position[i][0]),
         Array::float("y", |i| table.position[i][1]),

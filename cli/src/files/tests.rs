@@ -249,7 +249,7 @@ fn a_writer_that_fails_leaves_nothing() {
             // Errors come through at any place …
             assert!(format.write(&table, &mut Full(room)).is_err(), "{ending}");
             // … and no file is left, under any name.
-            let mut files = WholeFiles::new(true);
+            let mut files = AtomicFiles::new(true);
             let failed = files.write(&path, |to| {
                 format.write(&table, to)?;
                 format.write(&table, &mut Full(room))
@@ -259,7 +259,7 @@ fn a_writer_that_fails_leaves_nothing() {
             assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
         }
         fs::write(&path, "precious").unwrap();
-        let mut files = WholeFiles::new(false);
+        let mut files = AtomicFiles::new(false);
         files.write(&path, |to| format.write(&table, to)).unwrap();
         let message = files.finish().unwrap_err().to_string();
         assert_eq!(fs::read(&path).unwrap(), b"precious");

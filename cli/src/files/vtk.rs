@@ -15,7 +15,7 @@ const MOST: usize = i32::MAX as usize / 2;
 /// # Errors
 /// Those of `to`; where a number is not finite, or where there are more than 2³⁰ particles, before anything is written.
 pub fn write_vtk(table: &Table, to: &mut dyn Write) -> io::Result<()> {
-    super::sound::check(table)?;
+    super::validate::check(table)?;
     let n = table.len();
     if n > MOST {
         return Err(io::Error::new(

@@ -29,7 +29,7 @@ pub(super) fn one_point_each() -> [Array<'static>; 2] {
 
 /// Writes particles as `grid`.
 pub(super) fn write(table: &Table, grid: &Grid<'_>, to: &mut dyn Write) -> io::Result<()> {
-    super::sound::check(table)?;
+    super::validate::check(table)?;
     let n = table.len();
     let points = points(table);
     let mut data = vec![Array::long("id", |i| i64::from(table.id[i]))];

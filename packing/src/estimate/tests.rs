@@ -141,7 +141,7 @@ fn what_stays_on_its_lattice_costs_little() {
 fn who_judges_with_a_longer_kernel_lists_more() {
     let mut problem = ball(5.0);
     let short = of(&problem, &PLAIN).memory_bytes;
-    problem.seen_within = 4.0 * problem.support();
+    problem.judging_reach = 4.0 * problem.support();
     assert!(of(&problem, &PLAIN).memory_bytes > 1.5 * short);
 }
 

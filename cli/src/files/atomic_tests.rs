@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use super::WholeFiles;
+use super::AtomicFiles;
 
-fn write(files: &mut WholeFiles, path: &Path, content: &str) {
+fn write(files: &mut AtomicFiles, path: &Path, content: &str) {
     files
         .write(path, |to| to.write_all(content.as_bytes()))
         .unwrap();
@@ -40,7 +40,7 @@ fn mode(path: &Path) -> u32 {
 #[test]
 fn nothing_has_its_name_before_the_end() {
     let (folder, a, b) = two();
-    let mut files = WholeFiles::new(false);
+    let mut files = AtomicFiles::new(false);
     write(&mut files, &a, "first");
     write(&mut files, &b, "second");
     assert!(!a.exists() && !b.exists());
@@ -52,7 +52,7 @@ fn nothing_has_its_name_before_the_end() {
 #[test]
 fn sets_that_are_given_up_leave_nothing() {
     let (folder, a, _) = two();
-    let mut files = WholeFiles::new(false);
+    let mut files = AtomicFiles::new(false);
     write(&mut files, &a, "first");
     drop(files);
     assert!(names(&folder).is_empty());
@@ -61,7 +61,7 @@ fn sets_that_are_given_up_leave_nothing() {
 #[test]
 fn a_file_that_fails_does_not_take_the_others_with_it() {
     let (folder, a, b) = two();
-    let mut files = WholeFiles::new(false);
+    let mut files = AtomicFiles::new(false);
     let failed = files.write(&b, |_| Err(io::Error::other("full")));
     let message = failed.unwrap_err().to_string();
     assert!(
@@ -88,7 +88,7 @@ fn a_file_that_fails_does_not_take_the_others_with_it() {
 #[test]
 fn what_does_not_pass_is_kept_to_be_looked_at() {
     let (folder, a, _) = two();
-    let mut files = WholeFiles::new(false);
+    let mut files = AtomicFiles::new(false);
     let failed = files.write_and_check(
         &a,
         |to| to.write_all(b"first"),
@@ -108,7 +108,7 @@ fn what_does_not_pass_is_kept_to_be_looked_at() {
 #[test]
 fn a_name_that_is_taken_meanwhile_undoes_all() {
     let (folder, a, b) = two();
-    let mut files = WholeFiles::new(false);
+    let mut files = AtomicFiles::new(false);
     write(&mut files, &a, "first");
     write(&mut files, &b, "second");
     fs::write(&b, "precious").unwrap();
@@ -142,7 +142,7 @@ fn replaced_files_come_back() {
         use std::os::unix::fs::PermissionsExt;
         fs::set_permissions(&a, fs::Permissions::from_mode(0o640)).unwrap();
     }
-    let mut files = WholeFiles::new(true);
+    let mut files = AtomicFiles::new(true);
     write(&mut files, &a, "first");
     write(&mut files, &b, "second");
     // A folder is in the way of the second.
@@ -179,7 +179,7 @@ fn replacing_keeps_mode_and_owner() {
     fs::set_permissions(&a, fs::Permissions::from_mode(0o604)).unwrap();
     // Only an administrator may.
     let is_given_away = chown(&a, Some(12345), Some(54321)).is_ok();
-    let mut files = WholeFiles::new(true);
+    let mut files = AtomicFiles::new(true);
     write(&mut files, &a, "first");
     write(&mut files, &b, "second");
     files.finish().unwrap();
@@ -198,7 +198,7 @@ fn links_are_replaced_not_followed() {
     let (folder, a, b) = two();
     fs::write(&b, "precious").unwrap();
     std::os::unix::fs::symlink(&b, &a).unwrap();
-    let mut files = WholeFiles::new(true);
+    let mut files = AtomicFiles::new(true);
     write(&mut files, &a, "first");
     files.finish().unwrap();
     assert_eq!(names(&folder), ["a.txt", "b.txt"]);
@@ -210,7 +210,7 @@ fn links_are_replaced_not_followed() {
 fn names_too_long_for_more_are_kept_hidden() {
     let folder = tempfile::tempdir().unwrap();
     let long = folder.path().join("x".repeat(251) + ".txt");
-    let mut files = WholeFiles::new(false);
+    let mut files = AtomicFiles::new(false);
     write(&mut files, &long, "first");
     fs::write(&long, "precious").unwrap();
     let message = files.finish().unwrap_err().to_string();
@@ -229,7 +229,7 @@ fn what_has_gone_with_its_folder_is_not_said_to_be_kept() {
     let folder = tempfile::tempdir().unwrap();
     let sub = folder.path().join("sub");
     fs::create_dir(&sub).unwrap();
-    let mut files = WholeFiles::new(true);
+    let mut files = AtomicFiles::new(true);
     write(&mut files, &sub.join("a.txt"), "a");
     fs::rename(&sub, folder.path().join("gone")).unwrap();
     let error = files.finish().unwrap_err();

@@ -13,7 +13,7 @@ use crate::Error;
 /// Files written under temporary names beside their final ones, which they get all together at the end. Where that
 /// fails, what was complete stays under another name: it may have taken hours.
 #[derive(Debug)]
-pub(crate) struct WholeFiles {
+pub(crate) struct AtomicFiles {
     may_replace: bool,
     pending: Vec<Pending>,
 }
@@ -31,7 +31,7 @@ struct Renamed {
     before: Option<PathBuf>,
 }
 
-impl WholeFiles {
+impl AtomicFiles {
     /// No files yet. `may_replace`: whether files that exist may be replaced.
     pub(crate) fn new(may_replace: bool) -> Self {
         Self {
