@@ -1,4 +1,5 @@
-//! Fluid at rest under gravity: the pressure, density and mass that a simulation starts from (002 §III).
+//! Fluid at rest under gravity: the pressure, density and mass that a simulation starts from (Bouscasse et al.,
+//! §III).
 
 use crate::scene::Hydrostatic;
 

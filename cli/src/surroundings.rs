@@ -1,4 +1,4 @@
-//! The lattice around a packed domain, out to a larger box (001 fig. 3).
+//! The lattice around a packed domain, out to a larger box (Negi & Ramachandran 2021, fig. 3).
 
 use sphpack_neighbors::{Bounds, point};
 use sphpack_packing::{Kind, Packed};

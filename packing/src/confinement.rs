@@ -1,4 +1,4 @@
-//! Static confinement (004 §2.1.4): what lies beyond a surface, as a particle before it sees it.
+//! Static confinement (Zhao et al. 2025, §2.1.4): what lies beyond a surface, as a particle before it sees it.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -28,8 +28,8 @@ pub(crate) const PATCHES_ALONG_EDGE: f64 = 130.0;
 
 /// What the exterior of a domain adds to Γ and ∇Γ of a particle inside, as if it were full of matter of density 1.
 ///
-/// 004 eq. 10 sums cells of a background mesh beyond the surface, at the mesh's nodes, and interpolates between nodes.
-/// Here the divergence theorem turns both integrals into sums over the surface itself,
+/// Zhao et al. (2025), eq. 10 sums cells of a background mesh beyond the surface, at the mesh's nodes, and
+/// interpolates between nodes. Here the divergence theorem turns both integrals into sums over the surface itself,
 ///
 /// - ∇I(x) = ∮ W(|y − x|) n dA,
 /// - I(x) = ∮ (M₀ − N(r)) (y − x)·n / r^D dA with N(r) = ∫₀^r W s^(D−1) ds and M₀ = N(∞),
@@ -90,8 +90,8 @@ impl<const D: usize> Confinement<D> {
         Self::of(facets(surface, size), domain, kernel, smoothing_length)
     }
 
-    /// Of the outside of some bodies (004 eq. 11): the bodies confine. What one body has of its surface within another
-    /// is left out.
+    /// Of the outside of some bodies (Zhao et al. 2025, eq. 11): the bodies confine. What one body has of its surface
+    /// within another is left out.
     pub fn outside(
         bodies: &[&dyn Surface<D>],
         domain: &Domain<D>,

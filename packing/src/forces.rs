@@ -315,7 +315,8 @@ impl<const D: usize> Forces<D> {
         first(self.sums(i).1)
     }
 
-    /// −∇Γ plus repulsion: the acceleration of particle `i` for p_b = 1 (001 eqs. 13 and 16), per scene unit.
+    /// −∇Γ plus repulsion: the acceleration of particle `i` for p_b = 1 (Negi & Ramachandran 2021, eqs. 13 and 16),
+    /// per scene unit.
     #[inline]
     pub fn acceleration(&self, i: usize) -> [f64; D] {
         let (_, gradient, repulsion) = self.sums(i);

@@ -11,7 +11,7 @@ use sphpack_neighbors::{Bounds, Domain, Odometer, point};
 pub enum Lattice {
     /// 2-D, one site per square cell.
     Square,
-    /// 2-D, rows shifted by half a spacing; 001 fig. 6b.
+    /// 2-D, rows shifted by half a spacing; Negi & Ramachandran (2021), fig. 6b.
     Hexagonal,
     /// 3-D, one site per cubic cell.
     SimpleCubic,

@@ -33,7 +33,7 @@ const HALVINGS: usize = 60;
 
 /// Gives particles slightly different volumes so that Γ = Σ_j V_j W_ij comes nearer to 1 at every particle, none of
 /// them changed by more than the part `spread`, the sum of every group unchanged (a remark of Colagrossi's, cited in
-/// 001 §2, made into a method).
+/// Negi & Ramachandran (2021), §2, made into a method).
 ///
 /// `group` has an entry per particle; what has none keeps its volume and is a source only, as frozen particles are. With e = 1 − W v, the
 /// sum over particles of max(|e| − τ, 0)² is lowered by accelerated projected gradients (FISTA with restarts) for a

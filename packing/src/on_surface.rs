@@ -92,7 +92,8 @@ impl<const D: usize> State for OnSurface<D> {
 }
 
 /// Turns every free particle within `distance` (scene units) of a surface into a boundary particle of the nearest
-/// one; returns how many. 001 algorithm 1, with the exact closest point in place of r_pb · n_b.
+/// one; returns how many. Negi & Ramachandran (2021), algorithm 1, with the exact closest point in place of r_pb ·
+/// n_b.
 pub fn capture<const D: usize>(
     particles: &mut Particles<D>,
     surfaces: &[ParticleSurface<D>],

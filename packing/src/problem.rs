@@ -11,7 +11,8 @@ use crate::resolution::Resolution;
 use crate::sizes::Sizes;
 use crate::state::Damaged;
 
-/// How deep inside the true surface the boundary particles sit, unless a body says otherwise: ∆s/2 (001 eq. 11).
+/// How deep inside the true surface the boundary particles sit, unless a body says otherwise: ∆s/2 (Negi &
+/// Ramachandran 2021, eq. 11).
 pub const DEFAULT_INSET_OVER_SPACING: f64 = 0.5;
 
 /// A body and how its surface is placed.
@@ -42,7 +43,7 @@ pub enum FrozenLayout {
     /// The lattice of the inside, continued.
     #[default]
     Lattice,
-    /// A square or simple cubic ring, as 001 fig. 1 draws it.
+    /// A square or simple cubic ring, as Negi & Ramachandran (2021), fig. 1 draws it.
     Square,
 }
 

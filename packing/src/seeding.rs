@@ -158,8 +158,8 @@ pub fn particle_surfaces<const D: usize>(
 /// Corners nearer than this to a fixed particle, in ∆s, get none of their own.
 const CORNER_CLEARANCE: f64 = 0.5;
 
-/// Puts the nearest free particle on every corner of every surface and fixes it there (001 §3.1.1, fig. 4). Corners
-/// that crowd one another share a particle.
+/// Puts the nearest free particle on every corner of every surface and fixes it there (Negi & Ramachandran 2021,
+/// §3.1.1, fig. 4). Corners that crowd one another share a particle.
 pub fn fix_corners<const D: usize>(
     particles: &mut Particles<D>,
     surfaces: &[ParticleSurface<D>],

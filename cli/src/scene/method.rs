@@ -18,23 +18,23 @@ pub enum Method {
     /// Surface first, counts balanced, then a minimiser.
     #[default]
     Balanced,
-    /// Capture the surface, then settle by damped dynamics (001 §3.1).
+    /// Capture the surface, then settle by damped dynamics (Negi & Ramachandran 2021, §3.1).
     Hybrid,
-    /// A solid of offset layers, fluid packed around it (001 §3.2).
+    /// A solid of offset layers, fluid packed around it (Negi & Ramachandran 2021, §3.2).
     Standard,
-    /// Inside and outside packed apart, then together (001 §3.3).
+    /// Inside and outside packed apart, then together (Negi & Ramachandran 2021, §3.3).
     Coupled,
-    /// Bodies and fluid relaxed apart, bounded and confined (004 §2.1).
+    /// Bodies and fluid relaxed apart, bounded and confined (Zhao et al. 2025, §2.1).
     Relaxation,
-    /// The same, the fluid against the bodies' particles (004 §2.3).
+    /// The same, the fluid against the bodies' particles (Zhao et al. 2025, §2.3).
     Complex,
-    /// Stirred until the surface has its share (000).
+    /// Stirred until the surface has its share (Negi & Ramachandran preprint).
     Agitated,
-    /// Fluid between fixed walls (002).
+    /// Fluid between fixed walls (Bouscasse et al.).
     Ppa,
-    /// The lattice clipped by the bodies (000 §3).
+    /// The lattice clipped by the bodies (Negi & Ramachandran preprint, §3).
     Clipped,
-    /// Bodies cut into triangles (000 §3).
+    /// Bodies cut into triangles (Negi & Ramachandran preprint, §3).
     Triangulated,
 }
 

@@ -167,7 +167,7 @@ pub struct FluidSpec {
     pub density: f64,
     /// Whether fluid particles are written.
     pub fill: bool,
-    /// Gravity and state equation, for columns of pressure and density of the fluid at rest (002 §III).
+    /// Gravity and state equation, for columns of pressure and density of the fluid at rest (Bouscasse et al., §III).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hydrostatic: Option<Hydrostatic>,
 }
@@ -237,7 +237,7 @@ pub enum Frozen {
     /// The lattice of the inside, continued.
     #[default]
     Lattice,
-    /// A square or simple cubic ring, as 001 draws it.
+    /// A square or simple cubic ring, as Negi & Ramachandran (2021) draw it.
     Square,
 }
 
@@ -398,7 +398,8 @@ pub struct QualitySpec {
 pub struct OutputSpec {
     /// Names of the kinds of particles in the files.
     pub include: Vec<String>,
-    /// A larger box that the files fill around the domain, on the lattice that the frozen particles begin (001 fig. 3).
+    /// A larger box that the files fill around the domain, on the lattice that the frozen particles begin (Negi &
+    /// Ramachandran 2021, fig. 3).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surroundings: Option<Surroundings>,
 }

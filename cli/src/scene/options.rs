@@ -5,11 +5,12 @@ use sphpack_packing::{Agitated, Agitators, Hybrid};
 
 use super::fault::{Checked, Key, fault, positive};
 
-/// Of the method hybrid; its defaults are paper 001's algorithm.
+/// Of the method hybrid; its defaults are Negi & Ramachandran's algorithm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct HybridOptions {
-    /// The part of N_s that becomes boundary particles at the start; 0: none, 001 §3.1.9 has 0.9.
+    /// The part of N_s that becomes boundary particles at the start; 0: none, Negi & Ramachandran (2021), §3.1.9 have
+    /// 0.9.
     pub predicted: f64,
     /// Free particles farther than this from every surface, in ∆s, stay on their lattice; `None`: all move.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -93,7 +94,7 @@ pub enum AgitatorsAre {
     None,
 }
 
-/// Of the method agitated; its defaults are paper 000's.
+/// Of the method agitated; its defaults are Negi & Ramachandran's.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct AgitatedOptions {

@@ -6,7 +6,8 @@ use super::{Energy, Minimiser, Step, vectors};
 use crate::state::{Damaged, State};
 use sphpack_neighbors::point;
 
-/// Semi-implicit Euler with damping −ζu, ζ = C_ζ/∆s, and the time step of 001 eq. 25 (p_b = 1).
+/// Semi-implicit Euler with damping −ζu, ζ = C_ζ/∆s, and the time step of Negi & Ramachandran (2021), eq. 25 (p_b =
+/// 1).
 #[derive(Debug, Clone, Default)]
 pub struct Damped<const D: usize> {
     velocity: Vec<[f64; D]>,
@@ -14,11 +15,12 @@ pub struct Damped<const D: usize> {
     fastest: f64,
 }
 
-/// C_ζ; 001 gives 0.2 … 0.5.
+/// C_ζ; Negi & Ramachandran (2021) give 0.2 … 0.5.
 const DAMPING: f64 = 0.2;
 
-/// The time step of 001 eq. 25 (Negi and Ramachandran) for a background pressure `pressure`: no farther than a tenth of `h` by what
-/// the pressure does from rest, nor by damping `zeta` at the speed of the `fastest`.
+/// The time step of Negi & Ramachandran (2021), eq. 25 for a background pressure `pressure`:
+/// no farther than a tenth of `h` by what the pressure does from rest, nor by damping `zeta` at the speed of the
+/// `fastest`.
 pub(crate) fn time_step(h: f64, zeta: f64, pressure: f64, fastest: f64) -> f64 {
     (0.1 * h / pressure.sqrt()).min((0.1 * h / (zeta * fastest)).sqrt())
 }

@@ -2,7 +2,7 @@
 //!
 //! | name | what it does | source |
 //! |---|---|---|
-//! | [`Damped`] | the papers' dynamics: semi-implicit Euler with damping −ζu | 001 eqs. 17–25 |
+//! | [`Damped`] | the papers' dynamics: semi-implicit Euler with damping −ζu | Negi & Ramachandran (2021), eqs. 17–25 |
 //! | [`Fire`] | dynamics that is stopped where it runs uphill, and hastened where it does not | Bitzek et al., PRL 97, 170201 (2006) |
 //! | [`Lbfgs`] | quasi-Newton steps from the last few gradients, with a line search | Nocedal & Wright, Numerical Optimization, ch. 7 |
 //!

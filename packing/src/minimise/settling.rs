@@ -49,7 +49,7 @@ pub struct Settling {
     pub max_evaluations: usize,
     /// Evaluations under the strong repulsion, at most, times the minimiser's [`MinimiserKind::pace`].
     pub early_evaluations: usize,
-    /// C of k_r = C ∆s p_b: at first (001's), and at the end of an even finish.
+    /// C of k_r = C ∆s p_b: at first (Negi & Ramachandran's), and at the end of an even finish.
     pub repulsion: [f64; 2],
     /// κ of the [`Levelling`] at the end of an even finish; 0 is none. A consistent finish has none: a pressure that
     /// differs from place to place is a residual.

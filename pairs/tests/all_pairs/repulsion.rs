@@ -20,7 +20,7 @@ proptest! {
 
 #[test]
 fn the_printed_constant_below_half_the_spacing() {
-    // 001 eq. 16, first line, with ∆s = 1: 192 k_r (3c² − c).
+    // Negi & Ramachandran (2021), eq. 16, first line, with ∆s = 1: 192 k_r (3c² − c).
     let c = 2.0 * 0.95 / 3.0;
     let printed = 192.0 * Repulsion::STRENGTH * (3.0 * c * c - c);
     let ours = Repulsion::new(1.0, Repulsion::STRENGTH);

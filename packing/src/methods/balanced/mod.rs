@@ -45,7 +45,8 @@ use shares::{Held, Share};
 /// 3. Minimise the energy of background pressure and repulsion; boundary particles slide along their surface. Far from
 ///    every surface particles stay on their lattice ([`Band`]).
 ///
-/// Nothing waits for particles to wander onto the surface, so some sixty evaluations do where 001 takes thousands.
+/// Nothing waits for particles to wander onto the surface, so some sixty evaluations do where Negi & Ramachandran
+/// (2021) take thousands.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Balanced {
     /// How the particles come to rest.

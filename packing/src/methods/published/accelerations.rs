@@ -1,4 +1,4 @@
-//! What 001 §3.1.9 has done before the first step, so that fewer are needed.
+//! What Negi & Ramachandran (2021), §3.1.9 have done before the first step, so that fewer are needed.
 
 use rayon::prelude::*;
 
@@ -6,7 +6,7 @@ use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 
 /// Turns the free particles nearest to every surface into its boundary particles, until it has `part` of its target
-/// with the corners that it has already (001 §3.1.9). None farther than ∆s.
+/// with the corners that it has already (Negi & Ramachandran 2021, §3.1.9). None farther than ∆s.
 pub(crate) fn predict<const D: usize>(
     particles: &mut Particles<D>,
     surfaces: &[ParticleSurface<D>],

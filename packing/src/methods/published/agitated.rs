@@ -1,4 +1,5 @@
-//! The agitated method of paper 000 §2: particles on circles keep the others moving until the surface has its share.
+//! The agitated method of Negi & Ramachandran (preprint), §2: particles on circles keep the others moving until the
+//! surface has its share.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -26,7 +27,7 @@ mod tests;
 
 use near::{Near, REACH};
 
-/// The agitated method (000 §2).
+/// The agitated method (Negi & Ramachandran preprint, §2).
 ///
 /// Some free particles, on a coarse grid and at least 2 ∆s from every surface, run on circles (2-D, eq. 12) or closed
 /// curves on spheres (3-D, eq. 13) of radius ∆s/2 and stir the rest. The free particles nearest to a surface are its
@@ -116,7 +117,7 @@ impl Agitated {
     /// What it costs, moves and promises.
     pub const INFO: MethodInfo = MethodInfo {
         name: "agitated",
-        summary: "stirred by particles on circles until the surface has its share (paper 000)",
+        summary: "stirred by particles on circles until the surface has its share (Negi & Ramachandran, preprint)",
         // 3,200 … 7,850 iterations, a third of their time the repulsion, whose lists, one for each particle, took 350
         // … 720 bytes in space.
         work: Work {

@@ -1,4 +1,4 @@
-//! A lattice clipped by the bodies: what everyone starts from (000 §3).
+//! A lattice clipped by the bodies: what everyone starts from (Negi & Ramachandran preprint, §3).
 
 use std::time::Instant;
 

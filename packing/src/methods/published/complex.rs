@@ -1,4 +1,5 @@
-//! Complex relaxation of paper 004 §2.3: bodies as in separate relaxation, the fluid against their particles.
+//! Complex relaxation of Zhao et al. (2025), §2.3: bodies as in separate relaxation, the fluid against their
+//! particles.
 
 use rayon::prelude::*;
 
@@ -16,7 +17,7 @@ use crate::run_log::RunLog;
 use sphpack_kernels::KernelKind;
 use sphpack_pairs::Repulsion;
 
-/// The paper's complex relaxation (004 §2.3), in the plane and in space, and a levelling after it.
+/// The paper's complex relaxation (Zhao et al. 2025, §2.3), in the plane and in space, and a levelling after it.
 ///
 /// In each step the bodies move first, each alone as in [`Relaxation`]; then the fluid, which sees the bodies' particles
 /// where separate relaxation has confinement (eq. 12). The coupling is one-way: bodies do not see the fluid. Which h
@@ -74,7 +75,7 @@ impl Complex {
     /// What it costs, moves and promises.
     pub const INFO: MethodInfo = MethodInfo {
         name: "complex",
-        summary: "bodies relaxed alone, the fluid against their particles (paper 004)",
+        summary: "bodies relaxed alone, the fluid against their particles (Zhao et al. 2025)",
         kernel: KernelKind::WendlandC2,
         h_over_spacing: 1.3,
         // As many as relaxation, then as many that level, of two smoothing lengths with two sums each: three times as

@@ -1,4 +1,4 @@
-//! Particles within a surface that bounds them, relaxed step by step (004 §2.1).
+//! Particles within a surface that bounds them, relaxed step by step (Zhao et al. 2025, §2.1).
 
 use std::io::{self, Write};
 use std::time::Instant;

@@ -1,4 +1,4 @@
-//! The coupled method of paper 001 §3.3: inside and outside packed apart, then together.
+//! The coupled method of Negi & Ramachandran (2021), §3.3: inside and outside packed apart, then together.
 
 use std::time::Instant;
 
@@ -22,7 +22,8 @@ use crate::run_log::RunLog;
 use crate::seeding::{Seeds, seed};
 use sphpack_pairs::Repulsion;
 
-/// The coupled method (001 §3.3, algorithms 4 and 5, after Jiang et al. 2015), in the plane and in space.
+/// The coupled method (Negi & Ramachandran 2021, §3.3, algorithms 4 and 5, after Jiang et al. 2015), in the plane and
+/// in space.
 ///
 /// Inside and outside are packed apart first, each held by its own surface ∆s/2 from the body's, under the symmetric
 /// pressure of eq. 27 and the cohesion of eq. 28, which keeps too many particles from being pushed onto the surface;
@@ -37,7 +38,7 @@ use sphpack_pairs::Repulsion;
 /// hexagonal one, and the density varies about twice as much.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coupled {
-    /// ε: stop when u_max ∆t/h is below this (001 eq. 23).
+    /// ε: stop when u_max ∆t/h is below this (Negi & Ramachandran 2021, eq. 23).
     pub velocity_tolerance: f64,
     /// Give up after this many iterations of the second pass.
     pub max_iterations: usize,
@@ -74,7 +75,7 @@ impl Coupled {
     /// What it costs, moves and promises.
     pub const INFO: MethodInfo = MethodInfo {
         name: "coupled",
-        summary: "inside and outside packed apart, then together (paper 001)",
+        summary: "inside and outside packed apart, then together (Negi & Ramachandran 2021)",
         kernel: KernelKind::Cubic,
         h_over_spacing: 1.0,
         lattices: Some([Lattice::Square, Lattice::SimpleCubic]),
@@ -302,7 +303,7 @@ fn outer_surface<const D: usize>(problem: &Problem<D>, p: [f64; D]) -> Closest<D
 }
 
 /// The particles of the inside and of the outside. What lies between a body's two surfaces is moved along the normal by
-/// ∆s, inward or outward as it is inside or outside of the body's own surface (001 §3.3).
+/// ∆s, inward or outward as it is inside or outside of the body's own surface (Negi & Ramachandran 2021, §3.3).
 fn divide<const D: usize>(
     problem: &Problem<D>,
     surfaces: &[ParticleSurface<D>],

@@ -1,4 +1,4 @@
-//! The hybrid method of paper 001 §3.1: capture the surface, then settle by damped dynamics.
+//! The hybrid method of Negi & Ramachandran (2021), §3.1: capture the surface, then settle by damped dynamics.
 
 use std::time::Instant;
 
@@ -17,15 +17,15 @@ use crate::run_log::{Begin, RunLog};
 use crate::seeding::{Seeds, fix_corners, seed};
 use sphpack_pairs::Repulsion;
 
-/// The hybrid method (001 §3.1, algorithms 1 and 2), with its constants.
+/// The hybrid method (Negi & Ramachandran 2021, §3.1, algorithms 1 and 2), with its constants.
 ///
 /// Free particles near the surface become boundary particles, pass after pass, until none is left near it; all move
 /// under background pressure, repulsion and damping until the fastest is slow enough. The surface itself takes the
 /// place of boundary nodes: projections and distances are exact, and boundary particles stay on the surface at every
-/// step (001 projects them only every 50th).
+/// step (Negi & Ramachandran (2021) project them only every 50th).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hybrid {
-    /// ε: stop when u_max ∆t/h is below this (001 eq. 23).
+    /// ε: stop when u_max ∆t/h is below this (Negi & Ramachandran 2021, eq. 23).
     pub velocity_tolerance: f64,
     /// Give up after this many iterations.
     pub max_iterations: usize,
@@ -35,14 +35,15 @@ pub struct Hybrid {
     pub capture_over_spacing: [f64; 2],
     /// Passes without a capture until the second distance holds; one more empty pass ends the capture phase.
     pub empty_passes: usize,
-    /// C_ζ of the damping ζ = C_ζ √p_b/∆s; 001 gives 0.2 … 0.5.
+    /// C_ζ of the damping ζ = C_ζ √p_b/∆s; Negi & Ramachandran (2021) give 0.2 … 0.5.
     pub damping: f64,
-    /// C of the repulsion k_r = C ∆s p_b; 001 gives 0.004 … 0.006.
+    /// C of the repulsion k_r = C ∆s p_b; Negi & Ramachandran (2021) give 0.004 … 0.006.
     pub repulsion: f64,
-    /// What takes over where the capture phase ends; `None` goes on damping, as 001 does.
+    /// What takes over where the capture phase ends; `None` goes on damping, as Negi & Ramachandran (2021) do.
     pub settling: Option<Settling>,
-    /// The first of 001 §3.1.9's accelerations: the part of N_s that becomes boundary particles at the start, those
-    /// nearest to the surface; the first capture follows one interval later. 001 has 0.9; 0 leaves it out.
+    /// The first of Negi & Ramachandran (2021), §3.1.9: the part of N_s that becomes boundary particles at the start,
+    /// those nearest to the surface; the first capture follows one interval later. Negi & Ramachandran (2021) have
+    /// 0.9; 0 leaves it out.
     pub predicted: f64,
     /// The second: free particles farther than this from every surface, in ∆s, stay on their lattice and are not
     /// evaluated. Infinite leaves it out.
@@ -74,7 +75,7 @@ impl Hybrid {
     /// What it costs, moves and promises.
     pub const INFO: MethodInfo = MethodInfo {
         name: "hybrid",
-        summary: "captures the surface, then settles by damped dynamics (paper 001)",
+        summary: "captures the surface, then settles by damped dynamics (Negi & Ramachandran 2021)",
         ..MethodInfo::USUAL
     };
 

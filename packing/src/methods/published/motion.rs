@@ -36,8 +36,8 @@ impl<const D: usize> Motion<D> {
         time_step(h, zeta, pressure, self.fastest)
     }
 
-    /// 001 eqs. 17 and 19, semi-implicit Euler with damping −`zeta` u; along the surface for boundary particles
-    /// (eq. 22).
+    /// Negi & Ramachandran (2021), eqs. 17 and 19, semi-implicit Euler with damping −`zeta` u; along the surface for
+    /// boundary particles (eq. 22).
     pub(crate) fn advance(
         &mut self,
         particles: &mut Particles<D>,

@@ -1,4 +1,4 @@
-//! The particle packing algorithm of paper 002 §III: fluid at rest between walls that never move.
+//! The particle packing algorithm of Bouscasse et al., §III: fluid at rest between walls that never move.
 
 use std::time::Instant;
 
@@ -23,7 +23,7 @@ use crate::run_log::RunLog;
 use crate::seeding::{Seeds, seed};
 use sphpack_pairs::Repulsion;
 
-/// The particle packing algorithm (002 §III).
+/// The particle packing algorithm (Bouscasse et al., §III).
 ///
 /// The fluid is the lattice's sites between the walls, with the volume V₀ = V/N each, and follows
 /// du/dt = −β ∇Γ − ν u (eq. III.7) with ν = α √β/V₀^(1/d) (III.6) and ∆t = CFL V₀^(1/d)/√β (III.8), β = 1. Walls are
@@ -38,11 +38,12 @@ use sphpack_pairs::Repulsion;
 /// kernel nor h/∆s.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ppa {
-    /// Stop where the mean of ½ u²/β falls below this; 002 §IV reaches 10⁻⁸.
+    /// Stop where the mean of ½ u²/β falls below this; Bouscasse et al., §IV reach 10⁻⁸.
     pub energy_tolerance: f64,
-    /// Give up after this many iterations; 002 needs 2000 to 2500.
+    /// Give up after this many iterations; Bouscasse et al. need 2000 to 2500.
     pub max_iterations: usize,
-    /// α of III.6; 002 gives 10⁻³ … 5·10⁻³. The energy falls as exp(−2 α CFL n) at best, so the upper end.
+    /// α of III.6; Bouscasse et al. give 10⁻³ … 5·10⁻³. The energy falls as exp(−2 α CFL n) at best, so the upper
+    /// end.
     pub damping: f64,
     /// CFL of III.8.
     pub cfl: f64,
@@ -86,7 +87,7 @@ impl Ppa {
     /// What it costs, moves and promises.
     pub const INFO: MethodInfo = MethodInfo {
         name: "ppa",
-        summary: "fluid at rest between walls that never move, for containers (paper 002)",
+        summary: "fluid at rest between walls that never move, for containers (Bouscasse et al.)",
         fills_bodies: false,
         fills_box: false,
         // 1,800 … 2,550 iterations; fast particles need new lists more often.

@@ -1,4 +1,4 @@
-//! Relaxation of paper 004 §2.1: every body alone, bounded by its surface and confined by what lies beyond.
+//! Relaxation of Zhao et al. (2025), §2.1: every body alone, bounded by its surface and confined by what lies beyond.
 
 use std::time::Instant;
 
@@ -24,7 +24,7 @@ mod start;
 
 use start::Start;
 
-/// The paper's separate relaxation (004 §2.1–2.2), in the plane and in space.
+/// The paper's separate relaxation (Zhao et al. 2025, §2.1–2.2), in the plane and in space.
 ///
 /// Every body, and the fluid, the box without the bodies (eq. 11), relaxes alone. None sees another: what lies beyond
 /// its surface is completed as if it were full ([`Confinement`], eqs. 8 to 10), the fluid at the box's sides by the
@@ -75,7 +75,7 @@ impl Relaxation {
     /// What it costs, moves and promises.
     pub const INFO: MethodInfo = MethodInfo {
         name: "relaxation",
-        summary: "bodies and fluid relaxed apart, each within its surface (paper 004)",
+        summary: "bodies and fluid relaxed apart, each within its surface (Zhao et al. 2025)",
         kernel: KernelKind::WendlandC2,
         h_over_spacing: 1.3,
         // 560 … 2,440 iterations. Both sides of every surface are confined.

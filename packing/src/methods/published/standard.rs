@@ -1,4 +1,4 @@
-//! The standard method of paper 001 §3.2: a solid of offset layers, and fluid packed around it.
+//! The standard method of Negi & Ramachandran (2021), §3.2: a solid of offset layers, and fluid packed around it.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -19,7 +19,7 @@ use crate::run_log::RunLog;
 use crate::seeding::seed;
 use sphpack_pairs::Repulsion;
 
-/// The standard method (001 §3.2, algorithm 3), in the plane only.
+/// The standard method (Negi & Ramachandran 2021, §3.2, algorithm 3), in the plane only.
 ///
 /// The solid is layers of particles ∆s apart (Marrone et al. 2011): the particle surface, moved inward by ∆s again and
 /// again until nothing is left, corners on their bisectors. Its particles never move. The fluid is the lattice's sites
@@ -28,7 +28,7 @@ use sphpack_pairs::Repulsion;
 /// paper shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standard {
-    /// ε: stop when u_max ∆t/h is below this (001 eq. 23).
+    /// ε: stop when u_max ∆t/h is below this (Negi & Ramachandran 2021, eq. 23).
     pub velocity_tolerance: f64,
     /// Give up after this many iterations.
     pub max_iterations: usize,
@@ -56,7 +56,7 @@ impl Standard {
     /// What it costs, moves and promises.
     pub const INFO: MethodInfo = MethodInfo {
         name: "standard",
-        summary: "a solid of offset layers, fluid packed around it; 2-D (paper 001)",
+        summary: "a solid of offset layers, fluid packed around it; 2-D (Negi & Ramachandran 2021)",
         dimensions: &[2],
         fills_box: false,
         // 650 … 1,700 evaluations.

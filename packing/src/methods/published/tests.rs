@@ -350,7 +350,7 @@ fn triangles_carry_the_area_of_their_body() {
     }
 }
 
-/// The body of scenes/zigzag.toml, with the kernel and h/∆s of 004.
+/// The body of scenes/zigzag.toml, with the kernel and h/∆s of Zhao et al. (2025).
 fn zigzag(spacing: f64) -> Problem<2> {
     let corners = [
         [-1.0, -1.0],
@@ -369,7 +369,7 @@ fn zigzag(spacing: f64) -> Problem<2> {
     problem
 }
 
-/// Largest and mean h |Σ V ∇W| of the fluid within ∆s of the body (004 eq. 13).
+/// Largest and mean h |Σ V ∇W| of the fluid within ∆s of the body (Zhao et al. 2025, eq. 13).
 fn first_layer(problem: &Problem<2>, packed: &Packed<2>) -> (f64, f64) {
     let fields = packed.fields(problem.kernel, problem.h_over_spacing);
     let particles = &packed.particles;

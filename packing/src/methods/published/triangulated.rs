@@ -1,4 +1,4 @@
-//! Triangles as particles: the baseline of paper 000 §3 in the plane.
+//! Triangles as particles: the baseline of Negi & Ramachandran (preprint), §3 in the plane.
 
 use std::time::Instant;
 
@@ -18,8 +18,9 @@ use crate::run_log::RunLog;
 use crate::seeding::{particle_surfaces, seed};
 
 /// Each body is cut into triangles of about ∆s², no angle below 25° but where the body itself is sharper, and each
-/// triangle becomes a particle at its centroid that carries its area (000 §3). The fluid is the lattice's sites outside
-/// the bodies. Nothing moves: the surface is met, the density is as uneven as the triangles.
+/// triangle becomes a particle at its centroid that carries its area (Negi & Ramachandran preprint, §3). The fluid is
+/// the lattice's sites outside the bodies. Nothing moves: the surface is met, the density is as uneven as the
+/// triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Triangulated;
 

@@ -1,4 +1,4 @@
-//! The repulsion of paper 000, eqs. 4 and 5.
+//! The repulsion of Negi & Ramachandran (preprint), eqs. 4 and 5.
 
 use std::io::{self, Write};
 

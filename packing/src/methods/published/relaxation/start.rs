@@ -1,4 +1,4 @@
-//! Where relaxation starts: a lattice for each body and for the fluid (004 §2.1.2).
+//! Where relaxation starts: a lattice for each body and for the fluid (Zhao et al. 2025, §2.1.2).
 
 use sphpack_geometry::GeometryError;
 
@@ -13,8 +13,8 @@ use crate::seeding::{Seeds, seed_lattice};
 
 /// The particles at the start, each body's for itself.
 ///
-/// The paper has "a preconditioned Lattice particle distribution within the interior domain" (004 §2.1.2) and says no
-/// more. Three choices (the boxes of the first are in `docs/methods.md`):
+/// The paper has "a preconditioned Lattice particle distribution within the interior domain" (Zhao et al. 2025,
+/// §2.1.2) and says no more. Three choices (the boxes of the first are in `docs/methods.md`):
 ///
 /// - A solid's lattice, unless the problem names one, is that of the least Γ at the solid's kernel and h
 ///   ([`Lattice::auto`]). With the paper's kernel and h/∆s = 1.05 a hexagonal lattice is unstable: in a
