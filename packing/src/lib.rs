@@ -1,23 +1,6 @@
 //! How particles settle: lattices, forces, capture, methods and measures.
 //!
-//! A [`Problem`] is a box, a spacing and bodies; a method, [`Balanced`] or [`Hybrid`], turns it into a [`Packed`] set
-//! of particles; [`Packed::quality`] says how good it is.
-//!
-//! ```
-//! use sphpack_geometry::Ball;
-//! use sphpack_neighbors::Domain;
-//! use sphpack_packing::{Balanced, Problem};
-//!
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let cylinder = Ball::new([0.0, 0.0], 1.0)?;
-//! let problem = Problem::new(Domain::new([-2.0, -2.0], [2.0, 2.0]), 0.4).body("cylinder", cylinder);
-//! let packed = problem.pack(&Balanced::default())?;
-//! let quality = packed.quality();
-//! assert!(quality.density.linf < 0.01);
-//! assert!(quality.surface[0].max_distance_over_spacing < 1e-9);
-//! # Ok(())
-//! # }
-//! ```
+#![doc = include_str!("../README.md")]
 //!
 //! Invariants: results have the same bits for any number of threads; the loop over iterations allocates only where a
 //! neighbour list is built anew or a particle is captured; nothing here reads or writes files.
