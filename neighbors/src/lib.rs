@@ -8,6 +8,7 @@ mod cell_list;
 mod cells;
 mod clusters;
 mod domain;
+pub mod fire;
 pub mod gauss;
 mod kd_tree;
 mod octaves;

@@ -1,6 +1,7 @@
 //! Points on a surface that push each other apart until they are spread evenly.
 
 use rayon::prelude::*;
+use sphpack_neighbors::fire::Fire;
 use sphpack_neighbors::{CellList, Domain, point};
 
 use super::local::{Local, Spot, apart, greatest};
@@ -32,13 +33,6 @@ const FLAT: f64 = 0.99;
 /// Cosine of the angle between two normals beyond which points are on opposite sides of a thin part.
 const SAME_SIDE: f64 = -0.5;
 
-/// FIRE's mixing parameter at a start, its decay, and the growth and steps of patience of the time step (Bitzek et al.,
-/// "Structural relaxation made simple", Physical Review Letters 97, 2006).
-const MIXING: f64 = 0.1;
-const MIXING_DECAY: f64 = 0.99;
-const GROWTH: f64 = 1.1;
-const PATIENCE: usize = 5;
-
 /// Moves all sites but the first `held` until all are spread as evenly as is wanted of each, by FIRE on the energy of
 /// a smooth repulsion along the surface. Where `locals` ask for wider gaps the push is the stronger, by as much as
 /// keeps the pressure the same everywhere. `spacing` is the mean one. `near` is the closest point of a place near the surface. Sites end up near the surface, not
@@ -69,7 +63,7 @@ pub(super) fn even_out<const D: usize>(
         })
         .collect();
     let mut pushes = Pushes::new(&movers, held, spacing, window);
-    let (mut step, mut mixing, mut patience) = (0.3 * LONGEST, MIXING, 0);
+    let mut fire = Fire::new(0.3 * LONGEST, [0.0, LONGEST]);
     for _ in 0..if D == 2 { STEPS_ON_CURVE } else { STEPS } {
         let force = pushes.on(&movers);
         let (mut power, mut force_squared, mut speed_squared) = (0.0, 0.0, 0.0);
@@ -80,13 +74,11 @@ pub(super) fn even_out<const D: usize>(
         }
         let uphill = power < 0.0;
         if uphill {
-            (step, mixing, patience) = (0.5 * step, MIXING, 0);
+            fire.uphill();
         } else {
-            patience += 1;
-            if patience > PATIENCE {
-                (step, mixing) = ((GROWTH * step).min(LONGEST), MIXING_DECAY * mixing);
-            }
+            fire.downhill();
         }
+        let Fire { step, mixing, .. } = fire;
         let keep = if uphill { 0.0 } else { 1.0 - mixing };
         let turn = if uphill || force_squared == 0.0 {
             0.0

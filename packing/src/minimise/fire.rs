@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use super::{Energy, Minimiser, Step, vectors};
 use crate::state::{Damaged, State, Value};
+use sphpack_neighbors::fire::Fire as Engine;
 use sphpack_neighbors::point;
 
 /// Dynamics without damping whose velocity is steered along the force, sped up while it runs downhill and stopped
@@ -15,22 +16,14 @@ pub struct Fire<const D: usize> {
     pub step_over_spacing: f64,
     velocity: Vec<[f64; D]>,
     place: Vec<[f64; D]>,
-    /// Time step in h, for p_b = 1.
-    dt_over_h: f64,
-    steer: f64,
-    downhill: usize,
+    /// Its time step is in h, for p_b = 1.
+    fire: Engine,
 }
 
 /// Time steps in h: at first, and at most. The stiffest mode of a quintic lattice allows 1.6 h.
 const FIRST_STEP: f64 = 0.4;
 const LARGEST_STEP: f64 = 0.9;
 const SMALLEST_STEP: f64 = 0.02;
-/// The authors' constants.
-const STEER: f64 = 0.1;
-const STEER_DECAY: f64 = 0.99;
-const GROWTH: f64 = 1.1;
-const SHRINKAGE: f64 = 0.5;
-const PATIENCE: usize = 5;
 
 impl<const D: usize> Default for Fire<D> {
     fn default() -> Self {
@@ -38,9 +31,7 @@ impl<const D: usize> Default for Fire<D> {
             step_over_spacing: 0.1,
             velocity: Vec::new(),
             place: Vec::new(),
-            dt_over_h: FIRST_STEP,
-            steer: STEER,
-            downhill: 0,
+            fire: Engine::new(FIRST_STEP, [SMALLEST_STEP, LARGEST_STEP]),
         }
     }
 }
@@ -55,18 +46,13 @@ impl<const D: usize> Minimiser<D> for Fire<D> {
         let force = energy.force();
         let power = vectors::dot(&self.velocity, force);
         if power > 0.0 {
-            self.downhill += 1;
-            if self.downhill > PATIENCE {
-                self.dt_over_h = (self.dt_over_h * GROWTH).min(LARGEST_STEP);
-                self.steer *= STEER_DECAY;
-            }
+            self.fire.downhill();
         } else {
-            self.downhill = 0;
-            self.dt_over_h = (self.dt_over_h * SHRINKAGE).max(SMALLEST_STEP);
-            self.steer = STEER;
+            self.fire.uphill();
             self.velocity.fill([0.0; D]);
         }
-        let dt = self.dt_over_h * h;
+        let steer = self.fire.mixing;
+        let dt = self.fire.step * h;
         for (u, &force) in self.velocity.iter_mut().zip(force) {
             *u = point::add_scaled(*u, dt, force);
         }
@@ -74,8 +60,8 @@ impl<const D: usize> Minimiser<D> for Fire<D> {
         let pull = vectors::dot(force, force).sqrt();
         if pull > 0.0 {
             for (u, &force) in self.velocity.iter_mut().zip(force) {
-                let along = point::scale(force, self.steer * speed / pull);
-                *u = point::add_scaled(along, 1.0 - self.steer, *u);
+                let along = point::scale(force, steer * speed / pull);
+                *u = point::add_scaled(along, 1.0 - steer, *u);
             }
         }
         energy.make_tangential(&mut self.velocity);
@@ -94,13 +80,12 @@ impl<const D: usize> Minimiser<D> for Fire<D> {
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
         self.velocity.save(out)?;
-        (self.dt_over_h, self.steer).save(out)?;
-        self.downhill.save(out)
+        (self.fire.step, self.fire.mixing, self.fire.patience).save(out)
     }
 
     fn load(&mut self, from: &mut &[u8], _: usize) -> Result<(), Damaged> {
         self.velocity.load(from)?;
-        (self.dt_over_h, self.steer) = Value::take(from)?;
-        self.downhill.load(from)
+        (self.fire.step, self.fire.mixing, self.fire.patience) = Value::take(from)?;
+        Ok(())
     }
 }
