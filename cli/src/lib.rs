@@ -111,8 +111,7 @@ pub use examined::{Examine, Examined, Mend, MendedBody, Thin};
 pub use findings::{DefectFound, HoleFound, LoopFound, MeshFindings, OutlineFindings, ShellFound};
 pub use plan::{Plan, plan};
 pub use report::{
-    BodyReport, Counts, Density, History, MassReport, Report, Residual, SCHEMA, SecondsReport,
-    SurfaceReport,
+    BodyReport, Counts, MassReport, Report, SCHEMA, SecondsReport,
 };
 pub use run::{Options, Outcome, run};
 pub use scene::Scene;

@@ -45,13 +45,13 @@ pub struct Report {
     /// How many there are.
     pub particles: Counts,
     /// Of Γ, over free, boundary and fixed particles.
-    pub density: Density,
+    pub density: DensityQuality,
     /// h |∇Γ|.
-    pub residual: Residual,
+    pub residual: ResidualQuality,
     /// Smallest distance of two particles, in ∆s.
     pub closest_pair_over_spacing: f64,
     /// Each body's particle surface.
-    pub surface: Vec<SurfaceReport>,
+    pub surface: Vec<SurfaceQuality>,
     /// Each body's content.
     pub bodies: Vec<BodyReport>,
     /// What a person should know although nothing is wrong, a sentence each.
@@ -66,7 +66,7 @@ pub struct Report {
     /// The most memory that the process has held; 0 where unknown.
     pub peak_memory_bytes: u64,
     /// Along the way.
-    pub history: Vec<History>,
+    pub history: Vec<HistoryPoint>,
 }
 
 /// How many particles there are, after roles and `fluid.fill`, before `output.include`.
@@ -88,90 +88,14 @@ pub struct Counts {
     pub fluid: usize,
 }
 
-/// Γ.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Density {
-    /// Smallest.
-    pub min: f64,
-    /// Largest.
-    pub max: f64,
-    /// max |Γ − 1|.
-    pub linf: f64,
-    /// max − min.
-    pub total_variation: f64,
-    /// Root mean square of Γ − 1.
-    pub rms: f64,
-    /// Γ of the perfect lattice.
-    pub lattice: f64,
-}
-
-impl From<DensityQuality> for Density {
-    fn from(quality: DensityQuality) -> Self {
-        Self {
-            min: quality.min,
-            max: quality.max,
-            linf: quality.linf,
-            total_variation: quality.total_variation,
-            rms: quality.rms,
-            lattice: quality.lattice,
-        }
-    }
-}
-
-/// h |∇Γ|.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Residual {
-    /// Largest of the free particles.
-    pub max: f64,
-    /// Root mean square of the free particles.
-    pub rms: f64,
-    /// Mean of the free particles.
-    pub mean: f64,
-    /// Largest tangential part of the boundary particles.
-    pub max_tangential: f64,
-}
-
-impl From<ResidualQuality> for Residual {
-    fn from(quality: ResidualQuality) -> Self {
-        Self {
-            max: quality.max,
-            rms: quality.rms,
-            mean: quality.mean,
-            max_tangential: quality.max_tangential,
-        }
-    }
-}
-
-/// A body's particle surface.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SurfaceReport {
-    /// The body's name.
-    pub body: String,
-    /// Length or area.
-    pub measure: f64,
-    /// N_s.
-    pub target_count: usize,
-    /// Particles on it.
-    pub count: usize,
-    /// Largest distance of one from it.
-    pub max_distance_over_spacing: f64,
-    /// Mean distance to the nearest neighbour on it.
-    pub spacing_mean_over_spacing: f64,
-    /// Coefficient of variation of that.
-    pub spacing_cv: f64,
-}
-
-impl From<&SurfaceQuality> for SurfaceReport {
-    fn from(quality: &SurfaceQuality) -> Self {
-        Self {
-            body: quality.body.clone(),
-            measure: quality.measure,
-            target_count: quality.target_count,
-            count: quality.count,
-            max_distance_over_spacing: finite(quality.max_distance_over_spacing),
-            spacing_mean_over_spacing: finite(quality.spacing_mean_over_spacing),
-            spacing_cv: finite(quality.spacing_cv),
-        }
+/// The figures of a surface as JSON can hold them.
+pub(crate) fn finite_surface(quality: &SurfaceQuality) -> SurfaceQuality {
+    SurfaceQuality {
+        body: quality.body.clone(),
+        max_distance_over_spacing: finite(quality.max_distance_over_spacing),
+        spacing_mean_over_spacing: finite(quality.spacing_mean_over_spacing),
+        spacing_cv: finite(quality.spacing_cv),
+        ..*quality
     }
 }
 
@@ -237,33 +161,6 @@ pub struct SecondsReport {
     pub measuring: f64,
     /// Writing files, this one not included.
     pub output: f64,
-}
-
-/// Figures at one evaluation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct History {
-    /// Which.
-    pub evaluation: usize,
-    /// Energy per particle, in p_b V.
-    pub energy: f64,
-    /// Largest h |∇Γ| of a free particle.
-    pub residual: f64,
-    /// max |Γ − 1|.
-    pub linf: f64,
-    /// Since the packing began.
-    pub seconds: f64,
-}
-
-impl From<&HistoryPoint> for History {
-    fn from(sample: &HistoryPoint) -> Self {
-        Self {
-            evaluation: sample.evaluation,
-            energy: sample.energy,
-            residual: sample.residual,
-            linf: sample.linf,
-            seconds: sample.seconds,
-        }
-    }
 }
 
 impl Report {

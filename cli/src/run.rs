@@ -16,7 +16,7 @@ use crate::labels::{Sorted, sort};
 use crate::methods::pack;
 use crate::plan::{Prepared, available_bytes, dimension, judged, prepare};
 use crate::report::{
-    BodyReport, Counts, History, MassReport, Report, SCHEMA, SecondsReport, SurfaceReport, finite,
+    BodyReport, Counts, MassReport, Report, SCHEMA, SecondsReport, finite, finite_surface,
     peak_memory_bytes,
 };
 use crate::scene::{Masses, Role, Scene};
@@ -306,10 +306,10 @@ fn report<const D: usize>(
             solid: inner(Side::Solid),
             fluid: inner(Side::Fluid),
         },
-        density: quality.density.into(),
-        residual: quality.residual.into(),
+        density: quality.density,
+        residual: quality.residual,
         closest_pair_over_spacing: finite(quality.closest_pair_over_spacing),
-        surface: quality.surface.iter().map(SurfaceReport::from).collect(),
+        surface: quality.surface.iter().map(finite_surface).collect(),
         bodies,
         warnings: too_small(scene, solution),
         audit,
@@ -326,6 +326,6 @@ fn report<const D: usize>(
         },
         mass_correction: None,
         peak_memory_bytes: peak_memory_bytes(),
-        history: packed.history.iter().map(History::from).collect(),
+        history: packed.history.clone(),
     }
 }

@@ -8,6 +8,7 @@ use sphpack_pairs::Repulsion;
 
 /// What a correction came to.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MassCorrection {
     /// max |Γ − 1| before and after.
     pub linf: [f64; 2],

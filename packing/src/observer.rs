@@ -5,6 +5,8 @@ use std::ops::ControlFlow;
 
 /// What a packing is busy with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Stage {
     /// Surfaces are moved inward, areas and counts are taken.
     Geometry,
@@ -51,6 +53,7 @@ pub struct Progress {
 
 /// A line of a packing's history.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HistoryPoint {
     /// Force evaluations so far.
     pub evaluation: usize,

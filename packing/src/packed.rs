@@ -14,6 +14,8 @@ use crate::problem::Problem;
 
 /// Why a packing stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum StopReason {
     /// The tolerance was reached.
     Converged,
@@ -39,6 +41,7 @@ impl StopReason {
 
 /// Where the time went, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Seconds {
     /// Moving surfaces inward, areas and counts.
     pub geometry: f64,

@@ -39,6 +39,8 @@ impl<const D: usize> Body<D> {
 
 /// How the frozen particles outside the domain are arranged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum FrozenLayout {
     /// The lattice of the inside, continued.
     #[default]

@@ -30,6 +30,7 @@ pub struct Fields<const D: usize> {
 
 /// How even the density is, over free, boundary and fixed particles.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DensityQuality {
     /// Smallest Γ.
     pub min: f64,
@@ -47,6 +48,7 @@ pub struct DensityQuality {
 
 /// How far from rest under background pressure alone: h |∇Γ|, dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ResidualQuality {
     /// Largest of the free particles.
     pub max: f64,
@@ -60,6 +62,7 @@ pub struct ResidualQuality {
 
 /// How well a surface is covered.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SurfaceQuality {
     /// The body's name.
     pub body: String,
@@ -80,6 +83,7 @@ pub struct SurfaceQuality {
 
 /// Everything that is measured of a packing.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quality {
     /// Density.
     pub density: DensityQuality,

@@ -16,6 +16,7 @@ mod tests;
 /// assert_eq!(each.finest(), 0.1);
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sizes {
     /// The spacing of all, or the least (scene units).
     finest: f64,

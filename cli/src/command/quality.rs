@@ -9,7 +9,7 @@ use crate::audit::Audit;
 use crate::cloud::{Cloud, CloudQuality};
 use crate::error::{DONE, NOT_CONVERGED};
 use crate::picture::grouped;
-use crate::report::{Density, Residual};
+use sphpack_packing::{DensityQuality, ResidualQuality};
 use crate::scene::kernel_by_name;
 
 /// Where neither the command line nor the file says.
@@ -26,8 +26,8 @@ struct Answer<'a> {
     kernel: &'a str,
     h_over_spacing: f64,
     particles: Numbers,
-    density: Density,
-    residual: Residual,
+    density: DensityQuality,
+    residual: ResidualQuality,
     audit: Audit,
 }
 
@@ -77,8 +77,8 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
             measured,
             left_out_near_edge: left_out,
         },
-        density: density.into(),
-        residual: residual.into(),
+        density,
+        residual,
         audit,
     };
     if arguments.json {

@@ -82,6 +82,8 @@ pub trait Minimiser<const D: usize>: fmt::Debug {
 
 /// The name of a minimiser.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum MinimiserKind {
     /// [`Damped`].
     Damped,

@@ -15,6 +15,8 @@ use sphpack_pairs::Repulsion;
 /// The pressure alone would pull some pairs together wherever the lattice has a defect, so evenness and consistency
 /// cannot both be had: a repulsion that holds pairs apart is itself a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Finish {
     /// A weak repulsion stays on, which keeps pairs 0.9 ∆s apart, and the density is levelled. Some 10⁻³ of residual
     /// are the price.
@@ -38,6 +40,7 @@ impl Finish {
 /// Brings particles to rest: under a strong repulsion first, which sorts out the worst and spreads surface particles
 /// along their surface, then as the finish asks, with surface particles held where they are.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Settling {
     /// The minimiser.
     pub minimiser: MinimiserKind,

@@ -9,6 +9,8 @@ use sphpack_neighbors::point;
 
 /// Which particles settle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Band {
     /// Those within two and a half support radii of a surface; half as many again while the residual beyond asks for it. The others stay
     /// on their lattice, and are neither integrated nor listed. For a consistent finish all: what a body does to its

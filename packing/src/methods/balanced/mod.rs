@@ -48,6 +48,7 @@ use shares::{Held, Share};
 /// Nothing waits for particles to wander onto the surface, so some sixty evaluations do where Negi & Ramachandran
 /// (2021) take thousands.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Balanced {
     /// How the particles come to rest.
     pub settling: Settling,
