@@ -45,7 +45,7 @@ mod thickness;
 mod thin;
 mod winding;
 
-pub use bvh::Bvh;
+pub use bvh::{Bvh, Nearest};
 pub use continued::{Continued, within_window};
 pub use error::{
     CutError, GeometryError, InsetError, LoopSide, MeshError, OutlineError, ParameterError,

@@ -17,6 +17,9 @@ use crate::{Cubic, Kernel, Quintic, WendlandC2, WendlandC4, WendlandC6};
 /// # Ok::<(), sphpack_kernels::UnknownKernel>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum KernelKind {
     /// [`Quintic`], `"quintic"`.
     #[default]
