@@ -36,6 +36,8 @@ mod repeated;
 mod sample;
 mod sampling;
 mod segment;
+#[cfg(all(test, feature = "serde"))]
+mod serde_tests;
 mod shapes;
 mod similarity;
 mod sketch;

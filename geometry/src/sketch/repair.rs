@@ -187,7 +187,6 @@ impl fmt::Display for OutlineRepair {
 
 /// Loops after mending.
 #[derive(Debug, Clone, PartialEq)]
-#[must_use]
 #[non_exhaustive]
 pub struct RepairedSketch {
     /// The loops that are left. Where loops were joined, outer ones run counter-clockwise, holes clockwise.

@@ -182,7 +182,6 @@ impl fmt::Display for Repair {
 
 /// A mesh after mending, and what was done to it.
 #[derive(Debug, Clone, PartialEq)]
-#[must_use]
 #[non_exhaustive]
 pub struct Repaired {
     /// The mended triangles.
