@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use crate::{Cubic, Kernel, Quintic, WendlandC2, WendlandC4, WendlandC6};
 
-/// The name of a smoothing kernel, as scenes write it.
+/// A smoothing kernel by name, as users write it.
 ///
 /// ```
 /// use sphpack_kernels::KernelKind;
@@ -52,7 +52,7 @@ impl KernelKind {
         Self::WendlandC6,
     ];
 
-    /// The name that scenes and reports use.
+    /// The name that [`FromStr`] takes and `Display` gives.
     pub fn name(self) -> &'static str {
         match self {
             Self::Quintic => "quintic",

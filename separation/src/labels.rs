@@ -178,8 +178,8 @@ pub(crate) fn combine(on_surface: &[Option<u16>], held: impl Iterator<Item = Vec
     Labels { side, body }
 }
 
-/// Gives every particle to the first body that holds it, else to the fluid. O(n · cost of an inside test) for each body,
-/// parallel.
+/// Gives every particle to the first body that holds it, else to the fluid. O(n · cost of an inside test) for each
+/// body, parallel.
 ///
 /// ```
 /// use sphpack_geometry::Outline;
