@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use sphpack_geometry::{
     BodyFormat, GeometryError, HoleLimit, Mesh, Outline, ParameterError, Sketch, Soup, Surface,
 };
@@ -27,7 +27,6 @@ pub struct Examined {
     /// The file.
     pub file: PathBuf,
     /// What it was read as: stl, obj, ply, csv, dat (an airfoil) or svg, whatever its name.
-    #[serde(serialize_with = "extension")]
     pub format: BodyFormat,
     /// 2 or 3.
     pub dimension: usize,
@@ -191,10 +190,6 @@ impl Examined {
         self.volume = surface.volume();
         self.thin = spacing.map(|spacing| thin(surface, spacing));
     }
-}
-
-fn extension<S: Serializer>(format: &BodyFormat, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(format.extension())
 }
 
 /// Measures the thickness at places that stand for equal parts of the surface.

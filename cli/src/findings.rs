@@ -1,7 +1,7 @@
 //! What the check of a body's file finds, as it is written to JSON.
 
 use serde::Serialize;
-use sphpack_geometry::{MeshReport, OutlineReport};
+use sphpack_geometry::{Hole, MeshReport, OutlineReport, Shell};
 
 /// A mesh as it is in its file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -13,12 +13,12 @@ pub struct MeshFindings {
     /// What is wrong.
     pub defects: Vec<DefectFound>,
     /// Open rims, the largest first.
-    pub holes: Vec<HoleFound>,
+    pub holes: Vec<Hole>,
     /// Parts that hang together.
-    pub shells: Vec<ShellFound>,
+    pub shells: Vec<Shell>,
 }
 
-/// A defect.
+/// A defect, with what only the library could tell a reader of the JSON: whether it matters, and the words.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DefectFound {
     /// Its short name.
@@ -33,38 +33,6 @@ pub struct DefectFound {
     pub words: String,
 }
 
-/// A hole.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct HoleFound {
-    /// Open edges.
-    pub edges: usize,
-    /// How large across, scene units.
-    pub size: f64,
-    /// Where.
-    pub place: [f64; 3],
-}
-
-/// A shell.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ShellFound {
-    /// Triangles.
-    pub triangles: usize,
-    /// What it is to the body: body, cavity, redundant, undecided (it is open, or its triangles disagree).
-    pub role: &'static str,
-    /// Whether it faces the wrong way for that.
-    pub is_inverted: bool,
-    /// The shell around it, counted from 0.
-    pub inside: Option<usize>,
-    /// Lower corner of its box.
-    pub min: [f64; 3],
-    /// Upper corner.
-    pub max: [f64; 3],
-    /// Its area.
-    pub area: f64,
-    /// What it encloses, negative where it faces inward; means little where it is open.
-    pub volume: f64,
-}
-
 /// An outline as it is in its file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OutlineFindings {
@@ -76,7 +44,7 @@ pub struct OutlineFindings {
     pub loops: Vec<LoopFound>,
 }
 
-/// A loop.
+/// A loop. Its direction is told apart from its area, which a `SketchLoop` has in one signed number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LoopFound {
     /// Points, those that repeat the one before left out.
@@ -114,29 +82,8 @@ impl From<MeshReport> for MeshFindings {
                     words: defect.to_string(),
                 })
                 .collect(),
-            holes: report
-                .holes
-                .iter()
-                .map(|hole| HoleFound {
-                    edges: hole.edges,
-                    size: hole.size,
-                    place: hole.place,
-                })
-                .collect(),
-            shells: report
-                .shells
-                .iter()
-                .map(|shell| ShellFound {
-                    triangles: shell.triangles,
-                    role: shell.role.name(),
-                    is_inverted: shell.is_inverted,
-                    inside: shell.inside,
-                    min: shell.bounds.min,
-                    max: shell.bounds.max,
-                    area: shell.area,
-                    volume: shell.volume,
-                })
-                .collect(),
+            holes: report.holes,
+            shells: report.shells,
         }
     }
 }
@@ -171,5 +118,26 @@ impl From<OutlineReport> for OutlineFindings {
                 })
                 .collect(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sphpack_geometry::Soup;
+
+    use super::*;
+
+    #[test]
+    fn keys_and_their_order_stay() {
+        let leaf = Soup::from_loose(&[[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]]).unwrap();
+        let found = MeshFindings::from(leaf.check());
+        assert_eq!(
+            serde_json::to_string(&found.shells).unwrap(),
+            r#"[{"triangles":1,"role":"undecided","is_inverted":false,"inside":null,"min":[0.0,0.0,0.0],"max":[1.0,1.0,0.0],"area":0.5,"volume":0.0}]"#
+        );
+        assert_eq!(
+            serde_json::to_string(&found.holes).unwrap(),
+            r#"[{"edges":3,"size":1.4142135623730951,"place":[0.5,0.5,0.0]}]"#
+        );
     }
 }

@@ -108,11 +108,9 @@ pub use body_file::{ReadBody, body_format};
 pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};
 pub use examined::{Examine, Examined, Mend, MendedBody, Thin};
-pub use findings::{DefectFound, HoleFound, LoopFound, MeshFindings, OutlineFindings, ShellFound};
+pub use findings::{DefectFound, LoopFound, MeshFindings, OutlineFindings};
 pub use plan::{Plan, plan};
-pub use report::{
-    BodyReport, Counts, MassReport, Report, SCHEMA, SecondsReport,
-};
+pub use report::{BodyReport, Counts, MassReport, Report, SCHEMA, SecondsReport};
 pub use run::{Options, Outcome, run};
 pub use scene::Scene;
 pub use solution::{Packing, Solution};

@@ -249,7 +249,7 @@ where
             name: body.name.clone(),
             surface: built.surface,
             inset_over_spacing: body.surface.0,
-            thin: body.thin.into(),
+            thin: body.thin,
         });
     }
     if let Some(Surroundings { min, max }) = &scene.output.surroundings {

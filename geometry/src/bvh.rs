@@ -31,7 +31,7 @@ struct Node<const D: usize> {
 /// let sites = [[0.0, 0.0], [3.0, 1.0], [5.0, 5.0]];
 /// let bvh = Bvh::build(&sites.map(|s| Bounds::new(s, s)));
 /// let near = bvh.nearest([2.5, 1.0], f64::INFINITY, |i| point::distance_squared(sites[i], [2.5, 1.0]));
-/// assert_eq!(near, Some((1, 0.25)));
+/// assert_eq!(near.map(|near| (near.index, near.distance_squared)), Some((1, 0.25)));
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Bvh<const D: usize> {
@@ -39,8 +39,18 @@ pub struct Bvh<const D: usize> {
     order: Vec<u32>,
 }
 
+/// What a [`Bvh`] finds nearest to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Which primitive.
+    pub index: usize,
+    /// Its squared distance, as the caller measures it.
+    pub distance_squared: f64,
+}
+
 impl<const D: usize> Bvh<D> {
     /// The tree over `boxes`; primitive `i` is known by its place in the list (at most 2³² − 1 of them).
+    #[must_use]
     pub fn build(boxes: &[Bounds<D>]) -> Self {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let centers: Vec<[f64; D]> = boxes.iter().map(Bounds::center).collect();
@@ -73,7 +83,7 @@ impl<const D: usize> Bvh<D> {
         self.nodes.first().map_or(Bounds::EMPTY, |n| n.bounds)
     }
 
-    /// The primitive nearest to `p` among those within `√limit_squared` (included), with its squared distance.
+    /// The primitive nearest to `p` among those within `√limit_squared` (included).
     /// `distance_squared(i)` must return the squared distance of primitive `i` from `p`, at least that of its box.
     #[inline]
     pub fn nearest(
@@ -81,7 +91,7 @@ impl<const D: usize> Bvh<D> {
         p: [f64; D],
         limit_squared: f64,
         mut distance_squared: impl FnMut(usize) -> f64,
-    ) -> Option<(usize, f64)> {
+    ) -> Option<Nearest> {
         let root = self.nodes.first()?;
         let mut best = limit_squared;
         let mut found = None;
@@ -129,7 +139,10 @@ impl<const D: usize> Bvh<D> {
                 index = near;
             }
         }
-        found.map(|i| (i, best))
+        found.map(|index| Nearest {
+            index,
+            distance_squared: best,
+        })
     }
 
     /// Calls `each` for every primitive in a leaf all of whose ancestors' boxes (and its own) `accept`.
@@ -309,7 +322,8 @@ mod tests {
             let mut bvh = Bvh::build(&boxes);
             let brute = boxes.iter().map(|b| b.distance_squared(p)).fold(f64::INFINITY, f64::min);
             let found = bvh.nearest(p, limit, |i| boxes[i].distance_squared(p));
-            prop_assert_eq!(found.map(|f| f.1), (brute <= limit).then_some(brute));
+            let distance = found.map(|found| found.distance_squared);
+            prop_assert_eq!(distance, (brute <= limit).then_some(brute));
             let range = Bounds::new(p, p).grown(0.5);
             let hits = |b: &Bounds<3>| (0..3).all(|k| b.min[k] <= range.max[k] && range.min[k] <= b.max[k]);
             let mut seen = vec![false; boxes.len()];
@@ -323,7 +337,7 @@ mod tests {
             sorted.sort_unstable();
             prop_assert!(sorted.iter().enumerate().all(|(k, &i)| k == i as usize));
             let again = bvh.nearest(p, limit, |i| boxes[order[i] as usize].distance_squared(p));
-            prop_assert_eq!(again.map(|f| f.1), found.map(|f| f.1));
+            prop_assert_eq!(again.map(|again| again.distance_squared), distance);
         }
     }
 

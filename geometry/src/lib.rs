@@ -36,6 +36,8 @@ mod repeated;
 mod sample;
 mod sampling;
 mod segment;
+#[cfg(all(test, feature = "serde"))]
+mod serde_tests;
 mod shapes;
 mod similarity;
 mod sketch;
@@ -45,7 +47,7 @@ mod thickness;
 mod thin;
 mod winding;
 
-pub use bvh::Bvh;
+pub use bvh::{Bvh, Nearest};
 pub use continued::{Continued, within_window};
 pub use error::{
     CutError, GeometryError, InsetError, LoopSide, MeshError, OutlineError, ParameterError,

@@ -26,6 +26,7 @@ pub struct Placed<const D: usize> {
 
 impl<const D: usize> Placed<D> {
     /// `surface` carried along by `place`.
+    #[must_use]
     pub fn new(surface: Arc<dyn Surface<D>>, place: Similarity<D>) -> Self {
         Self { surface, place }
     }

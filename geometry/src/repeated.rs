@@ -36,6 +36,7 @@ pub struct Repeated<const D: usize> {
 
 impl<const D: usize> Repeated<D> {
     /// `surface` and its images across the periodic sides of `domain`.
+    #[must_use]
     pub fn new(surface: Arc<dyn Surface<D>>, domain: &Domain<D>) -> Self {
         let size = domain.bounds.size();
         let steps = domain.periodic.map(i64::from);

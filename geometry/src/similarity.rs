@@ -22,6 +22,7 @@ pub struct Similarity<const D: usize> {
 
 impl<const D: usize> Similarity<D> {
     /// Leaves everything where it is.
+    #[must_use]
     pub fn identity() -> Self {
         Self {
             scale: 1.0,

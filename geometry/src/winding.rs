@@ -90,6 +90,7 @@ pub struct FastWinding {
 
 impl FastWinding {
     /// Prepares `triangles`, each its three corners, counter-clockwise seen from outside.
+    #[must_use]
     pub fn new(triangles: Vec<[[f64; 3]; 3]>) -> Self {
         let boxes: Vec<Bounds<3>> = triangles.iter().map(|t| Bounds::of(t)).collect();
         let mut bvh = Bvh::build(&boxes);
@@ -161,9 +162,9 @@ impl FastWinding {
         };
         self.bvh
             .nearest(p, f64::INFINITY, |i| point::distance_squared(p, on(i)))
-            .map(|(i, _)| {
-                let normal = point::unit(triangle::area_vector(&self.corners[i]));
-                (on(i), normal.unwrap_or([1.0, 0.0, 0.0]))
+            .map(|found| {
+                let normal = point::unit(triangle::area_vector(&self.corners[found.index]));
+                (on(found.index), normal.unwrap_or([1.0, 0.0, 0.0]))
             })
     }
 

@@ -69,6 +69,7 @@ pub struct Cohesion<const D: usize> {
 
 impl<const D: usize> Cohesion<D> {
     /// The profile of the given support radius (scene units, positive).
+    #[must_use]
     pub fn new(support: f64) -> Self {
         Self {
             support,

@@ -115,6 +115,7 @@ pub struct Scaled<P, const D: usize> {
 
 impl<P: Profile<D>, const D: usize> Scaled<P, D> {
     /// The kernel of smoothing length `h` (scene units, positive).
+    #[must_use]
     pub fn new(h: f64) -> Self {
         let scale = P::SIGMA / h.powi(D as i32);
         Self {

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use crate::{Cubic, Kernel, Quintic, WendlandC2, WendlandC4, WendlandC6};
 
-/// The name of a smoothing kernel, as scenes write it.
+/// A smoothing kernel by name, as users write it.
 ///
 /// ```
 /// use sphpack_kernels::KernelKind;
@@ -17,6 +17,9 @@ use crate::{Cubic, Kernel, Quintic, WendlandC2, WendlandC4, WendlandC6};
 /// # Ok::<(), sphpack_kernels::UnknownKernel>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum KernelKind {
     /// [`Quintic`], `"quintic"`.
     #[default]
@@ -49,7 +52,7 @@ impl KernelKind {
         Self::WendlandC6,
     ];
 
-    /// The name that scenes and reports use.
+    /// The name that [`FromStr`] takes and `Display` gives.
     pub fn name(self) -> &'static str {
         match self {
             Self::Quintic => "quintic",

@@ -311,3 +311,16 @@ fn names_round_trip() {
     let error = "gauss".parse::<KernelKind>().expect_err("no such kernel");
     assert!(error.to_string().contains("wendland-c2"), "{error}");
 }
+
+#[cfg(feature = "serde")]
+#[test]
+fn serde_has_the_same_names() {
+    for kind in KernelKind::ALL {
+        let written = serde_json::to_value(kind).expect("a name");
+        assert_eq!(written, kind.name());
+        assert_eq!(
+            serde_json::from_value::<KernelKind>(written).ok(),
+            Some(kind)
+        );
+    }
+}

@@ -13,6 +13,14 @@ use crate::point;
 /// assert!(Bounds::<2>::EMPTY.is_empty());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "[f64; D]: serde::Serialize",
+        deserialize = "[f64; D]: serde::Deserialize<'de>"
+    ))
+)]
 pub struct Bounds<const D: usize> {
     /// Lower corner, scene units.
     pub min: [f64; D],
@@ -28,11 +36,13 @@ impl<const D: usize> Bounds<D> {
     };
 
     /// The box between two corners.
+    #[must_use]
     pub fn new(min: [f64; D], max: [f64; D]) -> Self {
         Self { min, max }
     }
 
     /// The smallest box around the points; [`Bounds::EMPTY`] for none.
+    #[must_use]
     pub fn of(points: &[[f64; D]]) -> Self {
         let mut bounds = Self::EMPTY;
         for &p in points {

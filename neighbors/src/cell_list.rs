@@ -69,6 +69,7 @@ pub struct CellList<const D: usize> {
 
 impl<const D: usize> CellList<D> {
     /// An empty list for the given support radius (scene units), without skin.
+    #[must_use]
     pub fn new(domain: &Domain<D>, support: f64) -> Self {
         Self {
             domain: *domain,

@@ -15,6 +15,14 @@ use crate::Bounds;
 /// assert_eq!(domain.clamp([1.25, 5.0]), [1.25, 2.0]);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "[f64; D]: serde::Serialize, [bool; D]: serde::Serialize",
+        deserialize = "[f64; D]: serde::Deserialize<'de>, [bool; D]: serde::Deserialize<'de>"
+    ))
+)]
 pub struct Domain<const D: usize> {
     /// The box, scene units.
     pub bounds: Bounds<D>,
@@ -24,6 +32,7 @@ pub struct Domain<const D: usize> {
 
 impl<const D: usize> Domain<D> {
     /// A box without periodic axes.
+    #[must_use]
     pub fn new(min: [f64; D], max: [f64; D]) -> Self {
         Self {
             bounds: Bounds::new(min, max),

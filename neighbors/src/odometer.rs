@@ -18,6 +18,7 @@ pub struct Odometer<const D: usize> {
 impl<const D: usize> Odometer<D> {
     /// Begins at `from`.
     #[inline]
+    #[must_use]
     pub fn new(from: [i64; D], to: [i64; D]) -> Self {
         let is_empty = (0..D).any(|k| from[k] >= to[k]);
         Self {

@@ -19,6 +19,7 @@ pub struct SplitMix64 {
 
 impl SplitMix64 {
     /// The stream of this seed.
+    #[must_use]
     pub fn new(seed: u64) -> Self {
         Self { state: seed }
     }
@@ -54,6 +55,7 @@ pub struct Congruential {
 
 impl Congruential {
     /// The stream of this seed.
+    #[must_use]
     pub fn new(seed: u64) -> Self {
         Self { state: seed }
     }

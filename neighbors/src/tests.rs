@@ -293,3 +293,15 @@ fn shells_and_halves_keep_their_promises() {
 fn not_finite_is_refused() {
     assert!(KdTree::new(&[[0.0, 0.0], [f64::NAN, 0.0]]).is_err());
 }
+
+#[cfg(feature = "serde")]
+#[test]
+fn domains_are_written_and_read() {
+    let domain = Domain::new([0.0, -1.0], [0.1, 2.0]).with_periodic([true, false]);
+    let text = serde_json::to_string(&domain).expect("finite numbers");
+    assert_eq!(
+        text,
+        r#"{"bounds":{"min":[0.0,-1.0],"max":[0.1,2.0]},"periodic":[true,false]}"#
+    );
+    assert_eq!(serde_json::from_str::<Domain<2>>(&text).ok(), Some(domain));
+}

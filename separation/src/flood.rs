@@ -6,9 +6,9 @@ use sphpack_neighbors::KdTree;
 
 use crate::labels::{Labels, SeparationError, check, combine};
 
-/// Labels particles as Negi & Ramachandran (2021), section 3.1.7, do: those within `reach` of a surface by its exact closest point (steps 1
-/// and 2, with the surface in place of its nearest node, whose averaged normal misleads at sharp tips), the others by
-/// a flood outward from that layer (step 3), each from a neighbour within `reach` that has its label.
+/// Labels particles as Negi & Ramachandran (2021), section 3.1.7, do: those within `reach` of a surface by its exact
+/// closest point (steps 1 and 2, with the surface in place of its nearest node, whose averaged normal misleads at sharp
+/// tips), the others by a flood outward from that layer (step 3), each from a neighbour within `reach` that has its label.
 ///
 /// A particle farther than `reach` from the surface and a neighbour nearer than `reach` to it are never on different
 /// sides, so the flood makes no mistakes and its order does not matter; it goes layer by layer, by ascending index.

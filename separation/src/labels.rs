@@ -15,6 +15,8 @@ use sphpack_geometry::Surface;
 /// assert!("void".parse::<Side>().is_err());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Side {
     /// Part of a body.
     Solid,
@@ -62,6 +64,8 @@ impl fmt::Display for Side {
 
 /// Side and body of every particle, in the particles' order.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[must_use]
 pub struct Labels {
     /// Solid or fluid.
     pub side: Vec<Side>,
@@ -174,8 +178,8 @@ pub(crate) fn combine(on_surface: &[Option<u16>], held: impl Iterator<Item = Vec
     Labels { side, body }
 }
 
-/// Gives every particle to the first body that holds it, else to the fluid. O(n · cost of an inside test) for each body,
-/// parallel.
+/// Gives every particle to the first body that holds it, else to the fluid. O(n · cost of an inside test) for each
+/// body, parallel.
 ///
 /// ```
 /// use sphpack_geometry::Outline;

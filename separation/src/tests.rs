@@ -143,3 +143,13 @@ fn senseless_input_is_refused() {
         Err(SeparationError::TooManyBodies(65_537))
     ));
 }
+
+#[cfg(feature = "serde")]
+#[test]
+fn serde_has_the_same_names() {
+    for side in Side::ALL {
+        let written = serde_json::to_value(side).expect("a name");
+        assert_eq!(written, side.name());
+        assert_eq!(serde_json::from_value::<Side>(written).ok(), Some(side));
+    }
+}

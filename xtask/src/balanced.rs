@@ -138,7 +138,8 @@ impl Figures {
             volume_off[0] = volume_off[0].max(off / body.volume_true);
             volume_off[1] = volume_off[1].max(off / particle);
         }
-        let sum = |f: fn(&sphpack_packing::SurfaceQuality) -> usize| report.surface.iter().map(f).sum();
+        let sum =
+            |f: fn(&sphpack_packing::SurfaceQuality) -> usize| report.surface.iter().map(f).sum();
         Self {
             evaluations: report.force_evaluations,
             linf: report.density.linf,

@@ -194,7 +194,9 @@ fn line(scene: &str, method: &str, report: &Report, seconds: f64) -> String {
             0.0,
             |most: f64, off| if off.abs() > most.abs() { off } else { most },
         );
-    let sum = |f: fn(&sphpack_packing::SurfaceQuality) -> usize| report.surface.iter().map(f).sum::<usize>();
+    let sum = |f: fn(&sphpack_packing::SurfaceQuality) -> usize| {
+        report.surface.iter().map(f).sum::<usize>()
+    };
     let mut line = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(

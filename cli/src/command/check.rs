@@ -281,11 +281,11 @@ fn mesh_words(text: &mut String, mesh: &MeshFindings, size: f64) {
             &format!(
                 "{}: {}{facing}{inside}; {} triangles, area {}, volume {}, from {}",
                 number + 1,
-                shell.role,
+                shell.role.name(),
                 grouped(shell.triangles),
                 short(shell.area),
                 short(shell.volume),
-                corners(&shell.min, &shell.max)
+                corners(&shell.bounds.min, &shell.bounds.max)
             ),
         );
     }

@@ -9,8 +9,8 @@ use crate::audit::Audit;
 use crate::cloud::{Cloud, CloudQuality};
 use crate::error::{DONE, NOT_CONVERGED};
 use crate::picture::grouped;
-use sphpack_packing::{DensityQuality, ResidualQuality};
 use crate::scene::kernel_by_name;
+use sphpack_packing::{DensityQuality, ResidualQuality};
 
 /// Where neither the command line nor the file says.
 const H_OVER_SPACING: f64 = 1.2;

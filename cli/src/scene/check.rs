@@ -1,11 +1,12 @@
 //! Whether a scene makes sense, as far as that can be said without building its bodies.
 
+use sphpack_geometry::Thin;
 use sphpack_packing::Kind;
 
 use super::check_body::check_body;
 use super::fault::{Checked, Fault, Key, fault, finite, positive, vector};
 use super::nearest::advice;
-use super::{Finish, Method, Role, Scene, Surroundings, Thin};
+use super::{Finish, Method, Role, Scene, Surroundings};
 
 /// The largest number of bodies.
 pub(super) const MAX_BODIES: usize = 1000;

@@ -16,6 +16,7 @@ mod tests;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
+use sphpack_geometry::Thin;
 use sphpack_kernels::KernelKind;
 use sphpack_packing::{Band, Complex, Hybrid, Kind, Lattice, MinimiserKind, Settling};
 
@@ -127,26 +128,6 @@ pub struct BodySpec {
     /// How many particles parts get that are thinner than ∆s.
     #[serde(default)]
     pub thin: Thin,
-}
-
-/// How many particles parts of a body get that are thinner than ∆s.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Thin {
-    /// As many as their mass asks for.
-    #[default]
-    Mass,
-    /// One per ∆s^(D−1), whatever they weigh, so that no fluid passes between them.
-    Watertight,
-}
-
-impl From<Thin> for sphpack_geometry::Thin {
-    fn from(thin: Thin) -> Self {
-        match thin {
-            Thin::Mass => Self::Mass,
-            Thin::Watertight => Self::Watertight,
-        }
-    }
 }
 
 /// A rotation in space.

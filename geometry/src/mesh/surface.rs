@@ -101,7 +101,7 @@ impl Surface<3> for Mesh {
                 let (weights, _) = triangle::nearest(corners, p);
                 point::distance_squared(p, triangle::place(corners, weights))
             })
-            .map(|(i, _)| self.answer(i, p))
+            .map(|found| self.answer(found.index, p))
     }
 
     /// Ray shooting: inside where a ray crosses the surface an odd number of times. A ray that

@@ -99,7 +99,7 @@ impl Surface<2> for Outline {
         }
         self.bvh
             .nearest(p, radius * radius, |i| self.sides[i].distance_squared(p))
-            .map(|(i, _)| self.answer(i, p))
+            .map(|found| self.answer(found.index, p))
     }
 
     /// Counts the sides that a ray crosses, found in the tree; exact for rays through vertices.

@@ -5,8 +5,10 @@ use super::rows::{content, fields, pair};
 use super::{airfoil, stl};
 use crate::GeometryError;
 
-/// The formats of body files that can be read.
+/// The formats of body files that can be read. Serde names them by their extensions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 #[non_exhaustive]
 pub enum BodyFormat {
     /// Triangles, binary or text, 3-D.
@@ -18,6 +20,7 @@ pub enum BodyFormat {
     /// Rows of x,y, 2-D.
     Csv,
     /// Airfoil coordinates after Selig or Lednicer, 2-D.
+    #[cfg_attr(feature = "serde", serde(rename = "dat"))]
     Airfoil,
     /// Closed paths of a drawing, 2-D.
     Svg,

@@ -9,6 +9,7 @@ use crate::{GeometryError, Outline, OutlineError};
 
 /// A body, and what was done to its loops to make it one.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct MendedOutline {
     /// The body.
     pub outline: Outline,

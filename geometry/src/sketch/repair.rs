@@ -12,6 +12,8 @@ use crate::soup::{Joined, four_digits, seven_digits};
 
 /// Something that was done to loops.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum OutlineRepair {
     /// Points that repeated the one before were left out.
@@ -185,6 +187,7 @@ impl fmt::Display for OutlineRepair {
 
 /// Loops after mending.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct RepairedSketch {
     /// The loops that are left. Where loops were joined, outer ones run counter-clockwise, holes clockwise.
     pub sketch: Sketch,

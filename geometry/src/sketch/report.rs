@@ -8,6 +8,8 @@ use crate::soup::seven_digits;
 
 /// A kind of defect of an outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum OutlineDefectKind {
     /// Pairs of sides of one loop that cross.
@@ -124,6 +126,8 @@ impl OutlineDefectKind {
 
 /// How often a defect is there, and where.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct OutlineDefect {
     /// What it is.
     pub kind: OutlineDefectKind,
@@ -151,6 +155,9 @@ impl fmt::Display for OutlineDefect {
 
 /// What a loop is to the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum LoopRole {
     /// What is just inside it is solid.
     Body,
@@ -176,10 +183,13 @@ impl LoopRole {
 
 /// A loop as it is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct SketchLoop {
     /// How many points it has, repeated ones left out.
     pub points: usize,
     /// Its box.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub bounds: Bounds<2>,
     /// Its length.
     pub length: f64,
@@ -193,8 +203,11 @@ pub struct SketchLoop {
 
 /// What [`Sketch::check`](super::Sketch::check) finds.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct OutlineReport {
     /// The box around all points.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub bounds: Bounds<2>,
     /// What is wrong, the worst first.
     pub defects: Vec<OutlineDefect>,

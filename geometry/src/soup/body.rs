@@ -14,6 +14,7 @@ use crate::{Bvh, GeometryError, Mesh, MeshError};
 
 /// A body, and what was done to its triangles to make it one.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Mended {
     /// The body.
     pub mesh: Mesh,

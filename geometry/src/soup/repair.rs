@@ -12,6 +12,9 @@ use crate::mesh::topology;
 
 /// Which holes are closed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum HoleLimit {
     /// Those that cannot matter: half a ball over each of them, the smallest first, has less than 1 % of the body's
     /// volume in all.
@@ -26,6 +29,8 @@ const SMALL_HOLES: f64 = 0.01;
 
 /// Something that was done to a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Repair {
     /// Vertices were taken together with others within 10⁻⁶ of the mesh's size.
@@ -36,10 +41,20 @@ pub enum Repair {
     DroppedDuplicates(usize),
     /// Walls between two bodies were left out: triangles that were there in both directions.
     DroppedWalls(usize),
-    /// Triangles faced the other way than their neighbours and were turned; so many of so many.
-    Turned(usize, usize),
-    /// Shells faced the wrong way and were turned inside out; so many of so many.
-    TurnedShells(usize, usize),
+    /// Triangles faced the other way than their neighbours and were turned.
+    Turned {
+        /// How many.
+        triangles: usize,
+        /// How many there are.
+        of: usize,
+    },
+    /// Shells faced the wrong way and were turned inside out.
+    TurnedShells {
+        /// How many.
+        shells: usize,
+        /// How many closed ones there are.
+        of: usize,
+    },
     /// Edges that met corners of their neighbours in the middle were cut there: cracks of no width.
     ClosedCracks(usize),
     /// Faces that lay on each other and looked at each other were left out, as far as they did; so many walls.
@@ -96,16 +111,16 @@ impl fmt::Display for Repair {
                 f,
                 "{n} triangles of inner walls, there in both directions, were left out with their doubles"
             ),
-            Self::Turned(n, of) => write!(
+            Self::Turned { triangles, of } => write!(
                 f,
-                "{n} of {of} triangles faced the other way than their neighbours and were turned"
+                "{triangles} of {of} triangles faced the other way than their neighbours and were turned"
             ),
-            Self::TurnedShells(1, 1) => {
+            Self::TurnedShells { shells: 1, of: 1 } => {
                 write!(f, "the body was inside out: all its triangles were turned")
             }
-            Self::TurnedShells(n, of) => write!(
+            Self::TurnedShells { shells, of } => write!(
                 f,
-                "{n} of {of} shells were inside out: all their triangles were turned"
+                "{shells} of {of} shells were inside out: all their triangles were turned"
             ),
             Self::ClosedCracks(n) => write!(
                 f,
@@ -167,6 +182,7 @@ impl fmt::Display for Repair {
 
 /// A mesh after mending, and what was done to it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Repaired {
     /// The mended triangles.
     pub soup: Soup,
@@ -253,7 +269,10 @@ impl Soup {
                 t.swap(1, 2);
             }
         }
-        done.push(Repair::Turned(count, self.triangles.len()));
+        done.push(Repair::Turned {
+            triangles: count,
+            of: self.triangles.len(),
+        });
     }
 
     fn fill_holes(&mut self, limit: HoleLimit, done: &mut Vec<Repair>) {
@@ -336,7 +355,10 @@ impl Soup {
                 .iter()
                 .filter(|shell| shell.role != ShellRole::Undecided)
                 .count();
-            done.push(Repair::TurnedShells(count, closed));
+            done.push(Repair::TurnedShells {
+                shells: count,
+                of: closed,
+            });
         }
         count > 0
     }

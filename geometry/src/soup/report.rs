@@ -6,6 +6,8 @@ use sphpack_neighbors::Bounds;
 
 /// A kind of defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum DefectKind {
     /// Edges with one triangle only: the mesh has holes.
@@ -109,6 +111,8 @@ impl DefectKind {
 
 /// How often a defect is there, and where.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Defect {
     /// What it is.
     pub kind: DefectKind,
@@ -132,6 +136,8 @@ impl fmt::Display for Defect {
 
 /// A hole: open edges that hang together.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Hole {
     /// How many open edges it has.
     pub edges: usize,
@@ -143,6 +149,9 @@ pub struct Hole {
 
 /// What a shell is to the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum ShellRole {
     /// Its inside is solid.
     Body,
@@ -168,25 +177,30 @@ impl ShellRole {
 
 /// Triangles that hang together over their edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Shell {
     /// How many triangles it has.
     pub triangles: usize,
-    /// Its box.
-    pub bounds: Bounds<3>,
-    /// Its area.
-    pub area: f64,
-    /// The volume it encloses, negative where it faces inward; means little where it is open.
-    pub volume: f64,
     /// What it is to the body.
     pub role: ShellRole,
     /// Whether it faces the wrong way for that.
     pub is_inverted: bool,
     /// The smallest shell that is around it.
     pub inside: Option<usize>,
+    /// Its box.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub bounds: Bounds<3>,
+    /// Its area.
+    pub area: f64,
+    /// The volume it encloses, negative where it faces inward; means little where it is open.
+    pub volume: f64,
 }
 
 /// What [`Soup::check`](super::Soup::check) finds.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct MeshReport {
     /// Triangles.
     pub triangles: usize,
@@ -195,6 +209,7 @@ pub struct MeshReport {
     /// Vertices that were taken together although they are not quite equal.
     pub welded: usize,
     /// The box around all vertices.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub bounds: Bounds<3>,
     /// Area of all triangles.
     pub area: f64,

@@ -173,7 +173,7 @@ fn inside_out_and_cavities() {
     let inverted = joined(&[&turned(&outer)]);
     assert_eq!(kinds(&inverted.check()), [(DefectKind::Inverted, 1)]);
     let body = inverted.body().unwrap();
-    assert_eq!(body.done, [Repair::TurnedShells(1, 1)]);
+    assert_eq!(body.done, [Repair::TurnedShells { shells: 1, of: 1 }]);
     assert!((body.mesh.volume() - v_outer).abs() < 1e-12);
     // A cavity faces inward.
     let hollow = joined(&[&outer, &turned(&inner)]);
@@ -185,14 +185,14 @@ fn inside_out_and_cavities() {
     // All inverted it is still one.
     let both = joined(&[&turned(&outer), &inner]);
     let body = both.body().unwrap();
-    assert_eq!(body.done, [Repair::TurnedShells(2, 2)]);
+    assert_eq!(body.done, [Repair::TurnedShells { shells: 2, of: 2 }]);
     assert!((body.mesh.volume() - (v_outer - v_inner)).abs() < 1e-12);
     // A body within the cavity that faces inward.
     let core = ball(1, 0.2, [0.1, 0.0, 0.0]);
     let v_core = volume(&joined(&[&core]));
     let three = joined(&[&turned(&core), &outer, &turned(&inner)]);
     let body = three.body().unwrap();
-    assert_eq!(body.done, [Repair::TurnedShells(1, 3)]);
+    assert_eq!(body.done, [Repair::TurnedShells { shells: 1, of: 3 }]);
     assert!((body.mesh.volume() - (v_outer - v_inner + v_core)).abs() < 1e-12);
     // One of two bodies beside each other.
     let apart = joined(&[&outer, &turned(&ball(2, 1.0, [3.0, 0.0, 0.0]))]);

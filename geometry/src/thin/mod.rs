@@ -28,6 +28,9 @@ const SMALL_PART: f64 = 0.02;
 
 /// How many points parts get that are thinner than a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[non_exhaustive]
 pub enum Thin {
     /// As many as their volume asks for.
     #[default]
@@ -38,6 +41,7 @@ pub enum Thin {
 
 /// What [`sample_particles`] gives.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[must_use]
 pub struct SurfaceSamples<const D: usize> {
     /// Points on the particle surface, features first, as [`Surface::sample`] gives them.
     pub on_surface: Vec<Closest<D>>,
