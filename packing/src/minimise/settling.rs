@@ -178,7 +178,10 @@ impl Settling {
         if log.go_on(&mut [&mut descent, &mut begin, &mut earlier])? == Begin::Anew {
             stages[0].enter(descent.energy);
             descent.energy.value();
-            begin = descent.energy.evaluations();
+            if !stages[0].is_surface_held {
+                // Where surface particles slide they have been put onto it first: that evaluation is not settling's.
+                begin = descent.energy.evaluations();
+            }
             descent.progress = Standstill::from(begin);
         }
         let reason = loop {
