@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use sphpack_neighbors::gauss;
 
 use crate::{
-    Cohesion, CohesionPotential, Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4,
-    WendlandC6, WithKernel,
+    Cohesion, CohesionPotential, CohesionProfile, Cubic, Kernel, KernelKind, Profile, Quintic,
+    WendlandC2, WendlandC4, WendlandC6, WithKernel,
 };
 
 /// Surface of the unit sphere in D dimensions.
@@ -118,8 +118,43 @@ impl<const D: usize> WithKernel<D> for Properties {
         prop_assert!((value - w.value(r)).abs() <= 1e-13 * w.value_at_origin());
         prop_assert!((slope_over_r * r - w.slope(r)).abs() <= 1e-12 * w.value_at_origin() / h);
         prop_assert!(w.value_and_slope_over_r(0.0).1.is_finite());
-        Ok(())
+
+        // Close to the centre slope/r is what it runs to from farther out.
+        let over_r = |q: f64| w.value_and_slope_over_r((q * h).powi(2)).1;
+        let limit = 2.0 * over_r(3e-4) - over_r(6e-4);
+        for q in [1e-12, 1e-8, 1e-6] {
+            let off = over_r(q) / limit - 1.0;
+            prop_assert!(off.abs() < 2e-5, "slope/r at {q} h is off by {off}");
+        }
+
+        // What pair loops take: the scale times the profile.
+        let (value, slope) = K::Profile::value_and_slope::<f64, 0>(r, 1.0 / h);
+        let slope = K::Profile::SLOPE * slope / h;
+        prop_assert!((w.scale() * value - w.value(r)).abs() <= 1e-13 * w.value_at_origin());
+        prop_assert!((w.scale() * slope - w.slope(r)).abs() <= 1e-12 * w.value_at_origin() / h);
+        later_pieces_are_exact::<K::Profile, D>(r / h)
     }
+}
+
+/// Each piece from where it begins, against the first, which is exact everywhere.
+fn later_pieces_are_exact<P: Profile<D>, const D: usize>(q: f64) -> Result<(), TestCaseError> {
+    let (value, slope) = P::value_and_slope::<f64, 0>(q, 1.0);
+    let pieces = [
+        (P::STARTS[1], P::value_and_slope::<f64, 1>(q, 1.0)),
+        (P::STARTS[2], P::value_and_slope::<f64, 2>(q, 1.0)),
+    ];
+    for (start, of_piece) in pieces {
+        if q >= start {
+            prop_assert_eq!(
+                of_piece,
+                (value, slope),
+                "the piece from {} on at {}",
+                start,
+                q
+            );
+        }
+    }
+    Ok(())
 }
 
 proptest! {
@@ -165,6 +200,18 @@ proptest! {
         let difference = (potential.value(r + step) - potential.value(r - step)) / (2.0 * step);
         prop_assert!((support * difference - c.value(r)).abs() < 1e-6 * scale);
         prop_assert_eq!(potential.value(1.1 * support), 0.0);
+        later_pieces_are_exact::<CohesionProfile, 3>(at)?;
+    }
+
+    /// Within the support and beyond it.
+    #[test]
+    fn the_gradient_of_cohesion_is_its_slope_along_the_way(
+        support in 1e-3..1e3_f64,
+        at in proptest::array::uniform3(-0.9..-0.05_f64),
+    ) {
+        cohesion_gradient::<1>(support, at)?;
+        cohesion_gradient::<2>(support, at)?;
+        cohesion_gradient::<3>(support, at)?;
     }
 
     #[test]
@@ -189,6 +236,30 @@ proptest! {
             prop_assert!((difference - c.slope(r)).abs() < 1e-6 * peak / support);
         }
     }
+}
+
+/// The gradient of C against its values a little to either side, in every coordinate.
+fn cohesion_gradient<const D: usize>(support: f64, at: [f64; 3]) -> Result<(), TestCaseError> {
+    let c = Cohesion::<D>::new(support);
+    prop_assert_eq!(c.support(), support);
+    let x: [f64; D] = std::array::from_fn(|k| at[k] * support);
+    let step = 1e-6 * support;
+    let gradient = c.gradient(x);
+    for k in 0..D {
+        let at = |shift: f64| {
+            let mut y = x;
+            y[k] += shift;
+            c.value(y.iter().map(|v| v * v).sum::<f64>().sqrt())
+        };
+        let difference = (at(step) - at(-step)) / (2.0 * step);
+        let scale = 32.0 / std::f64::consts::PI / support.powi(D as i32 + 1);
+        prop_assert!(
+            (difference - gradient[k]).abs() < 1e-5 * scale,
+            "axis {k} of {D}: {difference} {}",
+            gradient[k]
+        );
+    }
+    Ok(())
 }
 
 /// Σ W V = 1, Σ x W V = 0, Σ ∇W V = 0 and Σ x ∇W V = −1: what density, interpolation and gradients of SPH need.
@@ -227,6 +298,7 @@ impl<const D: usize> WithKernel<D> for LatticeSums {
             }
         }
         let kind = self.kind;
+        prop_assert_eq!(w.support(), kind.support_over_h() * w.smoothing_length());
         prop_assert!((one - 1.0).abs() < most, "{kind} in {D}-D: {one}");
         for k in 0..D {
             prop_assert!(first[k].abs() < most, "{kind} in {D}-D: {first:?}");
@@ -307,6 +379,7 @@ impl<const D: usize> WithKernel<D> for OriginAndH {
 fn names_round_trip() {
     for kind in KernelKind::ALL {
         assert_eq!(kind.name().parse(), Ok(kind));
+        assert_eq!(kind.to_string(), kind.name());
     }
     let error = "gauss".parse::<KernelKind>().expect_err("no such kernel");
     assert!(error.to_string().contains("wendland-c2"), "{error}");
