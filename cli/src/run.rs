@@ -158,12 +158,6 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .get(i)
             .map_or_else(|| rest_density(i), |rest| rest.density)
     };
-    let normal = |i: usize| {
-        let on = particles.on_surface(i)?;
-        let surface = &packed.surfaces.get(usize::from(on))?.surface;
-        let hit = surface.closest(particles.position[i]);
-        Some((particles.id[i], point::of_slice(&hit.normal)))
-    };
     Table {
         dimension: D,
         stop_reason: packed.stop_reason.name().to_owned(),
@@ -183,7 +177,14 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .collect(),
         gamma: fields.gamma.clone(),
         residual: all.clone().map(|i| fields.residual(i)).collect(),
-        normals: all.filter_map(normal).collect(),
+        normals: (packed.on_surface.iter())
+            .map(|seat| {
+                (
+                    particles.id[seat.particle],
+                    point::of_slice(&seat.hit.normal),
+                )
+            })
+            .collect(),
         pressure: at_rest.iter().map(|rest| rest.pressure).collect(),
         density: at_rest.iter().map(|rest| rest.density).collect(),
     }

@@ -47,7 +47,7 @@ pub use methods::{
 pub use methods::{Balanced, Band, Method, MethodInfo, Moves};
 pub use minimise::{Finish, MinimiserKind, Settling, UnknownMinimiser};
 pub use observer::{HistoryPoint, Keeper, Observer, Progress, Silent, Stage};
-pub use packed::{Omitted, Packed, ParticleSurface, Seconds, StopReason};
+pub use packed::{Omitted, Packed, ParticleSurface, Seconds, StopReason, SurfaceParticle};
 pub use particles::{Kind, Particles, UnknownKind};
 pub use problem::{Body, FrozenLayout, PackingError, Problem};
 pub use quality::{DensityQuality, Fields, Quality, ResidualQuality, SurfaceQuality};

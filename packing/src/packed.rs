@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use sphpack_geometry::Surface;
+use rayon::prelude::*;
+use sphpack_geometry::{Closest, Surface};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
@@ -68,6 +69,15 @@ pub struct ParticleSurface<const D: usize> {
     pub target_count: usize,
 }
 
+/// A particle on a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceParticle<const D: usize> {
+    /// Its index.
+    pub particle: usize,
+    /// The nearest point of its body's particle surface, with the normal there.
+    pub hit: Closest<D>,
+}
+
 /// A part of a body that has no particles because it holds less than half of one. Its volume is with what is around it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Omitted<const D: usize> {
@@ -104,6 +114,8 @@ pub struct Packed<const D: usize> {
     pub bodies: Vec<String>,
     /// The surface of each body, in the order of the problem's bodies.
     pub surfaces: Vec<ParticleSurface<D>>,
+    /// The boundary and fixed particles, ascending, each with where it is on its surface: asked once, at the end.
+    pub on_surface: Vec<SurfaceParticle<D>>,
     /// Whether `particles.body` says of every free particle which body it is part of, `None` for the fluid.
     pub knows_sides: bool,
     /// Parts that were too small for a particle, by methods that pack parts.
@@ -121,6 +133,25 @@ pub struct Packed<const D: usize> {
     pub history: Vec<HistoryPoint>,
     /// Where the time went.
     pub seconds: Seconds,
+}
+
+impl<const D: usize> ParticleSurface<D> {
+    /// Where the particles of these surfaces are on them. One query for each, parallel.
+    pub(crate) fn seats(surfaces: &[Self], particles: &Particles<D>) -> Vec<SurfaceParticle<D>> {
+        let on_surface: Vec<usize> = (0..particles.len())
+            .filter(|&i| particles.on_surface(i).is_some())
+            .collect();
+        (on_surface.into_par_iter().with_min_len(64))
+            .filter_map(|particle| {
+                let body = usize::from(particles.on_surface(particle)?);
+                let hit = surfaces
+                    .get(body)?
+                    .surface
+                    .closest(particles.position[particle]);
+                Some(SurfaceParticle { particle, hit })
+            })
+            .collect()
+    }
 }
 
 impl<const D: usize> Packed<D> {

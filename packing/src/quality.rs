@@ -9,7 +9,7 @@ use sphpack_neighbors::{Domain, KdTree, point};
 
 use crate::closest_pair::ClosestPair;
 use crate::forces::{Forces, blocked_sum, largest};
-use crate::packed::{Packed, ParticleSurface};
+use crate::packed::{Packed, ParticleSurface, SurfaceParticle};
 use crate::particles::Kind;
 use crate::sizes::Sizes;
 use crate::slabs::{self, Slab};
@@ -296,13 +296,13 @@ impl<const D: usize> Packed<D> {
         let free: Vec<f64> = of_kind(|kind| kind == Kind::Free)
             .map(|i| fields.residual(i))
             .collect();
-        let boundary: Vec<usize> = of_kind(|kind| kind == Kind::Boundary).collect();
-        let max_tangential = largest(boundary.len(), |b| {
-            let i = boundary[b];
-            let surface = &self.surfaces[usize::from(particles.body[i].unwrap_or(0))].surface;
-            let normal = surface.closest(particles.position[i]).normal;
-            let h = fields.sizes.smoothing_length(i);
-            h * point::norm(point::reject(fields.gradient[i], normal))
+        let max_tangential = largest(self.on_surface.len(), |k| {
+            let SurfaceParticle { particle, hit } = self.on_surface[k];
+            if particles.kind[particle] != Kind::Boundary {
+                return 0.0;
+            }
+            let along = point::reject(fields.gradient[particle], hit.normal);
+            fields.sizes.smoothing_length(particle) * point::norm(along)
         });
         let h_over_spacing = fields.sizes.smallest_smoothing_length() / self.spacing;
         let pair = ClosestPair::of(
@@ -335,29 +335,23 @@ impl<const D: usize> Packed<D> {
         body: u16,
     ) -> SurfaceQuality {
         let particles = &self.particles;
-        let on: Vec<[f64; D]> = (0..particles.len())
-            .filter(|&i| particles.on_surface(i) == Some(body))
-            .map(|i| particles.position[i])
+        let own: Vec<SurfaceParticle<D>> = (self.on_surface.iter())
+            .filter(|seat| particles.on_surface(seat.particle) == Some(body))
+            .copied()
+            .collect();
+        let on: Vec<[f64; D]> = (own.iter())
+            .map(|seat| particles.position[seat.particle])
             .collect();
         // Fixed particles in the middle of a thin part are on no surface.
-        let farthest = largest(particles.len(), |i| {
-            if particles.kind[i] == Kind::Boundary && particles.body[i] == Some(body) {
-                surface
-                    .surface
-                    .closest(particles.position[i])
-                    .distance
-                    .abs()
-            } else {
-                0.0
-            }
+        let farthest = largest(own.len(), |k| match particles.kind[own[k].particle] {
+            Kind::Boundary => own[k].hit.distance.abs(),
+            _ => 0.0,
         });
         // In thin parts particles sit farther apart on purpose.
-        let is_thick: Vec<bool> = on
-            .par_iter()
-            .with_min_len(64)
-            .map(|&p| {
-                let hit = surface.surface.closest(p);
-                thickness(surface.surface.as_ref(), &hit, self.spacing) >= 0.999 * self.spacing
+        let is_thick: Vec<bool> = (own.par_iter().with_min_len(64))
+            .map(|seat| {
+                let thickness = thickness(surface.surface.as_ref(), &seat.hit, self.spacing);
+                thickness >= 0.999 * self.spacing
             })
             .collect();
         let spacing = Spacing::of_some(&on, |i| is_thick[i]);

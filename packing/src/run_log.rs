@@ -243,6 +243,9 @@ impl<'a> RunLog<'a> {
                 }
             }
         }
+        let projecting = Instant::now();
+        let on_surface = ParticleSurface::seats(&surfaces, &particles);
+        self.seconds.projection += projecting.elapsed().as_secs_f64();
         self.count(forces);
         self.seconds.total = self.seconds_so_far();
         let Seconds {
@@ -272,6 +275,7 @@ impl<'a> RunLog<'a> {
                 .map(|body| body.name.clone())
                 .collect(),
             surfaces,
+            on_surface,
             knows_sides: false,
             omitted: Vec::new(),
             excess: Vec::new(),
