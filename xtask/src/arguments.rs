@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// What was given of that which a task knows: flags as the usage shows them, `--write`, or with a word for their value, `--seed N`.
+/// What was given of that which a task knows: flags as the usage shows them, `--write`, or with a word for their value, `--seed N`;
+/// and one of several words, `000|001`.
 #[derive(Debug)]
 pub(crate) struct Arguments {
     known: &'static [&'static str],
@@ -24,6 +25,10 @@ impl Arguments {
         let mut given = Vec::new();
         let mut words = words.iter();
         while let Some(word) = words.next() {
+            if let Some(choice) = (known.iter()).find(|known| is_choice(known, word)) {
+                given.push(((*choice).to_owned(), word.clone()));
+                continue;
+            }
             let value = match known
                 .iter()
                 .map(|flag| parts(flag))
@@ -84,6 +89,11 @@ impl Arguments {
         };
         self.value(flag).map(read).transpose()
     }
+}
+
+/// Whether a word is one of those between which there is a choice.
+fn is_choice(known: &str, word: &str) -> bool {
+    known.contains('|') && known.split('|').any(|one| one == word)
 }
 
 /// A flag, and the word for its value where it takes one.

@@ -8,7 +8,7 @@ use std::time::Instant;
 use crate::scene_fuzz::{self, faults, files, kills};
 use crate::selection::Selection;
 use crate::workspace::root;
-use crate::{balanced, bodies, reproduce, tidy};
+use crate::{balanced, bodies, reproduction, tidy};
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
 const RANDOM_SCENES: usize = 50;
@@ -62,7 +62,7 @@ pub(crate) fn run() -> Result<(), String> {
         quick: true,
         ..Selection::default()
     };
-    reproduce::run(&quick)?;
+    reproduction::run(&reproduction::Settings::quick())?;
     balanced::run(&quick)?;
     bodies::run(&bodies::Settings::quick())?;
     scene_fuzz::run(&scene_fuzz::Settings::new(RANDOM_SCENES))?;

@@ -5,7 +5,7 @@ use crate::scene_fuzz::{self, estimates, faults, files, kills};
 use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
-    balanced, bodies, ci, compare, corpora, draw, fuzz, lattices, reliability, reproduce,
+    balanced, bodies, ci, compare, corpora, draw, fuzz, lattices, reliability, reproduction,
     round_trip, speed, tidy,
 };
 
@@ -130,16 +130,18 @@ pub(crate) const TASKS: [Task; 18] = [
     },
     Task {
         name: "reproduce-paper",
-        known: Selection::KNOWN,
+        known: reproduction::Settings::KNOWN,
         about: &[
-            "the figures of paper 001, published beside ours;",
+            "the papers' figures of packings, published beside ours, into target/reproduction (index.html, summary.json,",
+            "rows.csv); goes on where it was stopped;",
+            "a number (docs/papers.md) and --only name one paper and one figure (fig13),",
             "--quick leaves out the long runs,",
             "--data names the folder with bunny.stl (default: data),",
             "--write also writes docs/reproduction.md",
         ],
         read: |given| {
-            let selection = Selection::of(given)?;
-            Ok(Box::new(move || reproduce::run(&selection)))
+            let settings = reproduction::Settings::of(given)?;
+            Ok(Box::new(move || reproduction::run(&settings)))
         },
     },
     Task {
@@ -330,6 +332,7 @@ mod tests {
             assert_eq!(said(&least(task)), None, "{}", task.name);
             for flag in task.known {
                 let given = match flag.split_once(' ') {
+                    None if flag.contains('|') => flag.split('|').next().unwrap().to_owned(),
                     Some((flag, "N")) => format!("{flag} 7"),
                     Some((flag, _)) => format!("{flag} here"),
                     None => (*flag).to_owned(),

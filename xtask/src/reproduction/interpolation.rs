@@ -1,0 +1,176 @@
+//! How well particles interpolate a function: the study of Negi & Ramachandran (2021), figs. 13, 16 and 20.
+
+use rayon::prelude::*;
+use sphpack_kernels::{Kernel, Quintic};
+use sphpack_neighbors::{Domain, KdTree, point};
+use sphpack_packing::{Kind, Lattice, Packed};
+
+/// Errors of f = sin(r²) and of its derivative along x.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Errors {
+    pub(crate) function: f64,
+    pub(crate) derivative: f64,
+}
+
+/// The three judges.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Study {
+    /// As printed: on a regular mesh, against the sum over the mesh's own points.
+    pub(crate) printed: Errors,
+    /// On a mesh moved by an irrational part of ∆s, against the function itself, over the same of the perfect lattice.
+    pub(crate) off_sites: Errors,
+    /// At the particles, against the function itself.
+    pub(crate) at_particles: Errors,
+}
+
+/// The part of ∆s by which the mesh is moved, axis by axis: no site of any lattice is there.
+const MOVED: [f64; 3] = [0.381_966, 0.236_068, 0.145_898];
+
+/// Nearer to the middle than this part of the body's longest edge nobody looks: the flow does not (the paper, §4.1).
+const MIDDLE: f64 = 0.45;
+
+/// The study of a packing by the quintic kernel at `h_over_spacing`.
+pub(crate) fn study<const D: usize>(packed: &Packed<D>, h_over_spacing: f64) -> Study {
+    let (domain, spacing) = (packed.domain, packed.spacing);
+    let kernel = Quintic::<D>::new(h_over_spacing * spacing);
+    let particles = &packed.particles;
+    let set = Set {
+        tree: KdTree::new(&particles.position).ok(),
+        positions: &particles.position,
+        volumes: &particles.volume,
+    };
+    // The regular mesh, as far as kernels at its points see.
+    let lattice = if D == 2 {
+        Lattice::Square
+    } else {
+        Lattice::SimpleCubic
+    };
+    let mesh = lattice.fill(domain.bounds, spacing);
+    let mut sites = mesh.sites();
+    let inner = sites.len();
+    sites.extend(mesh.continued(&domain, 2.0 * kernel.support()));
+    let volumes = vec![mesh.volume_per_site(); sites.len()];
+    let regular = Set {
+        tree: KdTree::new(&sites).ok(),
+        positions: &sites,
+        volumes: &volumes,
+    };
+    let edge = (packed.surfaces.iter())
+        .map(|surface| surface.surface.bounds().size())
+        .map(|size| size.into_iter().fold(0.0, f64::max))
+        .fold(0.0, f64::max);
+    let is_asked = |p: &[f64; D]| point::norm(*p) > MIDDLE * edge && is_seen(&domain, *p);
+    let points: Vec<[f64; D]> = sites[..inner].iter().copied().filter(is_asked).collect();
+    let printed = rms(&points, |p| {
+        let (own, reference) = (set.at(&kernel, p), regular.at(&kernel, p));
+        [own[0] - reference[0], own[1] - reference[1]]
+    });
+    let moved: Vec<[f64; D]> = (sites[..inner].iter())
+        .map(|p| std::array::from_fn(|k| p[k] + MOVED[k] * spacing))
+        .filter(|p| domain.bounds.contains(*p) && is_asked(p))
+        .collect();
+    let against_itself = |set: &Set<'_, D>, points: &[[f64; D]]| {
+        rms(points, |p| {
+            let (own, exact) = (set.at(&kernel, p), function(p));
+            [own[0] - exact[0], own[1] - exact[1]]
+        })
+    };
+    // The packing's own lattice, undisturbed, beside it.
+    let own = packed.frozen_lattice;
+    let mut perfect = own.sites();
+    perfect.extend(own.continued(&domain, 2.0 * kernel.support()));
+    let perfect_volumes = vec![own.volume_per_site(); perfect.len()];
+    let perfect = Set {
+        tree: KdTree::new(&perfect).ok(),
+        positions: &perfect,
+        volumes: &perfect_volumes,
+    };
+    let (ours, floor) = (
+        against_itself(&set, &moved),
+        against_itself(&perfect, &moved),
+    );
+    let at: Vec<[f64; D]> = (0..particles.len())
+        .filter(|&i| particles.kind[i] != Kind::Frozen)
+        .map(|i| particles.position[i])
+        .filter(is_asked)
+        .collect();
+    Study {
+        printed,
+        off_sites: Errors {
+            function: ours.function / floor.function,
+            derivative: ours.derivative / floor.derivative,
+        },
+        at_particles: against_itself(&set, &at),
+    }
+}
+
+/// Whether a place is in the box.
+fn is_seen<const D: usize>(domain: &Domain<D>, p: [f64; D]) -> bool {
+    domain.bounds.contains(p)
+}
+
+/// f = sin(r²) and ∂f/∂x.
+fn function<const D: usize>(p: [f64; D]) -> [f64; 2] {
+    let square = point::norm_squared(p);
+    [square.sin(), 2.0 * p[0] * square.cos()]
+}
+
+/// Particles that interpolate.
+struct Set<'a, const D: usize> {
+    tree: Option<KdTree<D>>,
+    positions: &'a [[f64; D]],
+    volumes: &'a [f64],
+}
+
+impl<const D: usize> Set<'_, D> {
+    /// ⟨f⟩ and ⟨∂f/∂x⟩ at a place (eqs. 31 and 32).
+    fn at(&self, kernel: &Quintic<D>, p: [f64; D]) -> [f64; 2] {
+        let Some(tree) = &self.tree else {
+            return [0.0; 2];
+        };
+        let (mut value, mut slope) = (0.0, 0.0);
+        for found in tree.within(p, kernel.support()) {
+            let j = found.index;
+            let apart = point::sub(p, self.positions[j]);
+            let of_j = self.volumes[j] * function(self.positions[j])[0];
+            value += of_j * kernel.value(found.distance);
+            slope += of_j * kernel.gradient(apart)[0];
+        }
+        [value, slope]
+    }
+}
+
+/// Eq. 33 of two errors at once.
+fn rms<const D: usize>(points: &[[f64; D]], error: impl Fn([f64; D]) -> [f64; 2] + Sync) -> Errors {
+    let all: Vec<[f64; 2]> = points
+        .par_iter()
+        .with_min_len(64)
+        .map(|&p| error(p))
+        .collect();
+    let n = all.len().max(1) as f64;
+    let of = |k: usize| (all.iter().map(|e| e[k] * e[k]).sum::<f64>() / n).sqrt();
+    Errors {
+        function: of(0),
+        derivative: of(1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sphpack_packing::{Balanced, Problem};
+
+    use super::*;
+
+    /// A lattice is as good as itself, and its error at its own sites as printed is none.
+    #[test]
+    fn an_undisturbed_lattice_is_its_own_floor() {
+        let domain = Domain::new([-2.0; 2], [2.0; 2]);
+        let mut problem = Problem::new(domain, 0.1);
+        problem.lattice = Some(Lattice::Square);
+        let packed = problem.pack(&Balanced::default()).unwrap();
+        let study = study(&packed, 1.2);
+        assert!(study.printed.function < 1e-12, "{study:?}");
+        assert!((study.off_sites.derivative - 1.0).abs() < 1e-6, "{study:?}");
+        assert!(study.at_particles.function > 1e-4, "{study:?}");
+    }
+}

@@ -1,0 +1,214 @@
+//! Packings that are measured once: their figures and pictures, kept until the program changes.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde_json::{Value, json};
+use sphpack::picture::{PictureFormat, Subject, draw};
+use sphpack::{Options, Outcome, Packing, run as pack};
+use sphpack_kernels::KernelKind;
+use sphpack_neighbors::point;
+use sphpack_packing::{Kind, Packed, Silent};
+
+use super::interpolation::{Study, study};
+use super::row::{Measure, Setup};
+use crate::selection::Selection;
+use crate::shipped::load;
+
+/// What a packing came to.
+#[derive(Debug, Clone)]
+pub(crate) struct Measured {
+    pub(crate) figures: BTreeMap<Measure, f64>,
+    /// Whether it came to rest.
+    pub(crate) is_at_rest: bool,
+    /// Its picture, PNG.
+    pub(crate) picture: PathBuf,
+}
+
+/// Measured packings in a folder.
+pub(crate) struct Store {
+    folder: PathBuf,
+    /// Tells this build of the program from others.
+    build: u64,
+}
+
+impl Store {
+    /// The store in `folder`, which is made where it is not there.
+    pub(crate) fn open(folder: &Path) -> Result<Self, String> {
+        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        let own = std::env::current_exe().and_then(fs::read);
+        let own = own.map_err(|error| format!("this program: {error}"))?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            build: hash(&own),
+        })
+    }
+
+    /// The figures of a setup, from the store or from a packing; `None` where its body's file is not there. A packing that
+    /// was measured without the interpolation is packed again where that is asked for.
+    pub(crate) fn measured(
+        &self,
+        setup: &Setup,
+        interpolates: bool,
+        selection: &Selection,
+    ) -> Result<Option<Measured>, String> {
+        let key = hash(format!("{setup:?} {:x}", self.build).as_bytes());
+        let entry = self.folder.join(format!("{key:016x}.json"));
+        let picture = self.folder.join(format!("{key:016x}.png"));
+        if let Some(kept) = read(&entry, &picture)
+            && (!interpolates || kept.figures.keys().any(|measure| measure.interpolates()))
+        {
+            return Ok(Some(kept));
+        }
+        let Some(mut scene) = load(setup.scene, selection)? else {
+            return Ok(None);
+        };
+        eprintln!("   packing {}", setup.words());
+        scene.spacing = setup.spacing / setup.enlarged;
+        scene.packing.method = setup.method;
+        scene.packing.finish = setup.finish;
+        scene.packing.h_over_spacing = setup.h_over_spacing.or(scene.packing.h_over_spacing);
+        scene.packing.velocity_tolerance = setup.tolerance;
+        scene.packing.max_iterations = setup.patience;
+        if let Some(h) = setup.judged_at {
+            scene.quality.kernel = Some(KernelKind::Quintic);
+            scene.quality.h_over_spacing = Some(h);
+        }
+        let start = Instant::now();
+        let outcome = pack(&scene, &Options::default(), &mut Silent);
+        let outcome = outcome.map_err(|error| error.to_string())?;
+        let seconds = start.elapsed().as_secs_f64();
+        let mut figures = of_report(&outcome, seconds);
+        if interpolates {
+            let h = setup.judged_at.unwrap_or(scene.packing.h_over_spacing());
+            figures.extend(interpolated(&outcome, h));
+        }
+        let measured = Measured {
+            figures,
+            is_at_rest: outcome.report.converged,
+            picture,
+        };
+        paint(&outcome, &measured.picture)?;
+        measured.write(&entry)?;
+        Ok(Some(measured))
+    }
+}
+
+impl Measured {
+    fn write(&self, entry: &Path) -> Result<(), String> {
+        let figures: serde_json::Map<String, Value> = (self.figures.iter())
+            .map(|(measure, value)| (measure.name().to_owned(), json!(value)))
+            .collect();
+        let text = json!({ "at_rest": self.is_at_rest, "figures": figures }).to_string();
+        fs::write(entry, text).map_err(|error| format!("{}: {error}", entry.display()))
+    }
+}
+
+fn read(entry: &Path, picture: &Path) -> Option<Measured> {
+    let kept: Value = serde_json::from_slice(&fs::read(entry).ok()?).ok()?;
+    let all = kept.get("figures")?.as_object()?;
+    picture.is_file().then_some(())?;
+    Some(Measured {
+        figures: (Measure::ALL.into_iter())
+            .filter_map(|measure| Some((measure, all.get(measure.name())?.as_f64()?)))
+            .collect(),
+        is_at_rest: kept.get("at_rest")?.as_bool()?,
+        picture: picture.to_owned(),
+    })
+}
+
+fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
+    let report = &outcome.report;
+    let (count, target) = (report.surface.iter()).fold((0, 0), |(count, target), surface| {
+        (count + surface.count, target + surface.target_count)
+    });
+    let off = (report.surface.iter())
+        .map(|surface| surface.max_distance_over_spacing)
+        .fold(0.0, f64::max);
+    let near = match &outcome.packing {
+        Packing::Plane(solution) => variation_near(&solution.packed, &solution.fields.gamma),
+        Packing::Space(solution) => variation_near(&solution.packed, &solution.fields.gamma),
+    };
+    BTreeMap::from([
+        (Measure::Variation, report.density.total_variation),
+        (Measure::VariationNear, near),
+        (Measure::Linf, report.density.linf),
+        (Measure::Residual, report.residual.max),
+        (Measure::OffSurface, off),
+        (Measure::ClosestPair, report.closest_pair_over_spacing),
+        (
+            Measure::OnSurface,
+            f64::from(count as u32) / f64::from(target.max(1) as u32),
+        ),
+        (Measure::Iterations, report.iterations as f64),
+        (Measure::Seconds, seconds),
+    ])
+}
+
+/// max Γ − min Γ of the particles outside the bodies or within ∆s of their surfaces.
+fn variation_near<const D: usize>(packed: &Packed<D>, gamma: &[f64]) -> f64 {
+    let particles = &packed.particles;
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for (i, &gamma) in gamma.iter().enumerate() {
+        let deep = |surface: &sphpack_packing::ParticleSurface<D>| {
+            surface.surface.closest(particles.position[i]).distance < -0.51 * packed.spacing
+        };
+        if particles.kind[i] != Kind::Frozen && !packed.surfaces.iter().any(deep) {
+            (least, most) = (least.min(gamma), most.max(gamma));
+        }
+    }
+    most - least
+}
+
+fn interpolated(outcome: &Outcome, h_over_spacing: f64) -> Vec<(Measure, f64)> {
+    let Study {
+        printed,
+        off_sites,
+        at_particles,
+    } = match &outcome.packing {
+        Packing::Plane(solution) => study(&solution.packed, h_over_spacing),
+        Packing::Space(solution) => study(&solution.packed, h_over_spacing),
+    };
+    vec![
+        (Measure::FunctionAsPrinted, printed.function),
+        (Measure::DerivativeAsPrinted, printed.derivative),
+        (Measure::FunctionOffSites, off_sites.function),
+        (Measure::DerivativeOffSites, off_sites.derivative),
+        (Measure::FunctionAtParticles, at_particles.function),
+        (Measure::DerivativeAtParticles, at_particles.derivative),
+    ]
+}
+
+fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
+    let bounds = match &outcome.packing {
+        Packing::Plane(solution) => {
+            let bounds = solution.packed.domain.bounds;
+            [point::of_slice(&bounds.min), point::of_slice(&bounds.max)]
+        }
+        Packing::Space(solution) => {
+            let bounds = solution.packed.domain.bounds;
+            [bounds.min, bounds.max]
+        }
+    };
+    let subject = Subject {
+        name: &outcome.report.scene.name,
+        table: &outcome.table,
+        loops: &outcome.loops,
+        domain: bounds,
+        spacing: outcome.report.spacing,
+        is_unfinished: !outcome.report.converged,
+    };
+    let mut bytes = Vec::new();
+    draw(&subject, PictureFormat::Png, &mut bytes)
+        .and_then(|()| fs::write(path, bytes))
+        .map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// FNV-1a: good enough to tell builds and setups apart.
+fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}

@@ -1,0 +1,210 @@
+//! What the papers print about packing, beside what this program gets.
+
+mod interpolation;
+mod measured;
+mod page;
+mod row;
+mod rows;
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::fs;
+use std::time::Instant;
+
+use crate::arguments::Arguments;
+use crate::selection::Selection;
+use crate::workspace::root;
+use measured::{Measured, Store};
+use page::{Result as Ended, Verdict, figure, published};
+use row::Row;
+use rows::{KNOWN_MISSES, rows};
+
+/// The papers that have rows.
+const PAPERS: &str = "000|001|002|004";
+
+/// What to run.
+#[derive(Debug, Default)]
+pub(crate) struct Settings {
+    selection: Selection,
+    /// The one paper.
+    paper: Option<String>,
+}
+
+impl Settings {
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] =
+        &[PAPERS, "--only FIGURE", "--quick", "--data DIR", "--write"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        let settings = Self {
+            selection: Selection::of(arguments)?,
+            paper: arguments.text(PAPERS),
+        };
+        if settings.selection.write && settings.paper.is_some() {
+            return Err("--write needs every row: leave the paper out".to_owned());
+        }
+        Ok(settings)
+    }
+
+    /// The rows that CI runs.
+    pub(crate) fn quick() -> Self {
+        Self {
+            selection: Selection {
+                quick: true,
+                ..Selection::default()
+            },
+            paper: None,
+        }
+    }
+
+    fn wants(&self, row: &Row) -> bool {
+        self.selection.wants(row.figure, row.quick)
+            && self.paper.as_ref().is_none_or(|paper| paper == row.paper)
+    }
+}
+
+const HEAD: &str = "\
+| paper | figure | packing | figure of it | published | ours | | seconds |
+|---|---|---|---|---|---|---|---|
+";
+
+/// Runs the rows that are asked for; what was measured before by this build is not packed again. Fails where a verdict is
+/// another than is known.
+pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+    let folder = root().join("target/reproduction");
+    let store = Store::open(&folder.join("packings"))?;
+    let asked: Vec<Row> = rows()
+        .into_iter()
+        .filter(|row| settings.wants(row))
+        .collect();
+    if asked.is_empty() {
+        let figures: BTreeSet<String> = (rows().iter())
+            .map(|row| format!("{} {}", row.paper, row.figure))
+            .collect();
+        let all: Vec<String> = figures.into_iter().collect();
+        return Err(format!("no row is asked for; there are {}", all.join(", ")));
+    }
+    let mut results = Vec::new();
+    print!("{HEAD}");
+    for (number, row) in asked.iter().enumerate() {
+        eprintln!("── {} of {}: {}", number + 1, asked.len(), row.id());
+        let begin = Instant::now();
+        let interpolates = (asked.iter()).any(|other| {
+            other.measure.interpolates()
+                && (other.setup == row.setup || other.over == Some(row.setup))
+        });
+        let own = store.measured(&row.setup, interpolates, &settings.selection)?;
+        let over = match &row.over {
+            None => None,
+            Some(over) => store.measured(over, row.measure.interpolates(), &settings.selection)?,
+        };
+        let ended = judged(row, own, over, begin.elapsed().as_secs_f64());
+        print!("{}", line(&ended));
+        results.push(ended);
+    }
+    page::write(&folder, &results, settings.selection.quick)?;
+    eprintln!("── {}", folder.join("index.html").display());
+    if settings.selection.write {
+        write_page(&results, settings.selection.quick)?;
+    }
+    let changed: Vec<String> = (results.iter())
+        .filter(|result| result.verdict == Verdict::Changed)
+        .map(|result| result.row.id())
+        .collect();
+    if changed.is_empty() {
+        Ok(())
+    } else {
+        Err(format!(
+            "other verdicts than are known: {}",
+            changed.join("; ")
+        ))
+    }
+}
+
+fn judged(row: &Row, own: Option<Measured>, over: Option<Measured>, seconds: f64) -> Ended {
+    let value = |measured: &Measured| measured.figures.get(&row.measure).copied();
+    let ours = match (&own, &row.over, &over) {
+        (Some(own), None, _) => value(own),
+        (Some(own), Some(_), Some(over)) => value(over).and_then(|over| Some(over / value(own)?)),
+        _ => None,
+    };
+    let is_known = KNOWN_MISSES.iter().any(|(id, _)| *id == row.id());
+    let is_at_rest = own.as_ref().is_some_and(|own| own.is_at_rest) || row.over.is_some();
+    let verdict = match ours.map(|ours| row.holds(ours).map(|holds| holds && is_at_rest)) {
+        None => Verdict::NoData,
+        Some(None) => Verdict::Beside,
+        Some(Some(true)) if is_known => Verdict::Changed,
+        Some(Some(true)) => Verdict::Holds,
+        Some(Some(false)) if is_known => Verdict::KnownMiss,
+        Some(Some(false)) => Verdict::Changed,
+    };
+    Ended {
+        row: *row,
+        ours,
+        verdict,
+        seconds,
+        picture: own.map(|own| own.picture),
+    }
+}
+
+fn line(ended: &Ended) -> String {
+    let row = &ended.row;
+    let over = (row.over).map_or_else(String::new, |over| {
+        format!("; {} over it", over.method_name())
+    });
+    let mut line = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        line,
+        "| {} | {} | {}{over} | {} | {} | {} | {} | {:.1} |",
+        row.paper,
+        row.figure,
+        row.setup.words(),
+        row.measure.name(),
+        published(row),
+        ended.ours.map_or_else(|| "–".to_owned(), figure),
+        ended.verdict.name(),
+        ended.seconds
+    );
+    line
+}
+
+/// Writes docs/reproduction.md.
+fn write_page(results: &[Ended], is_quick: bool) -> Result<(), String> {
+    let mut text = format!(
+        "# What the papers print, and ours\n\n\
+         Papers go by their numbers in [papers.md](papers.md). Defaults, no tuning per shape{}. Regenerate with\n\
+         `cargo xtask reproduce-paper --data DIR --write`, where DIR holds `bunny.stl`; pictures and a page of all are then in\n\
+         `target/reproduction/index.html`. Published numbers are from the papers' texts and tables. A row *holds* where ours is within its bar,\n\
+         rows *beside* are not judged; a ratio is the named method's number over the first one's. Times are wall-clock seconds and\n\
+         depend on the machine; a packing that several rows share counts in the first.\n\n{HEAD}",
+        if is_quick {
+            " (the quick rows only)"
+        } else {
+            ""
+        }
+    );
+    for result in results {
+        text.push_str(&line(result));
+    }
+    if !KNOWN_MISSES.is_empty() {
+        text.push_str("\n## Known misses\n\n| row | why |\n|---|---|\n");
+        for (id, why) in KNOWN_MISSES {
+            let _ = writeln!(text, "| {id} | {why} |");
+        }
+    }
+    text.push_str(
+        "\n## Not yet done\n\n| paper | figure | it shows | why not |\n|---|---|---|---|\n",
+    );
+    for figure in rows::FIGURES.iter() {
+        if let Some(why) = figure.missing {
+            let _ = writeln!(
+                text,
+                "| {} | {} | {} | {why} |",
+                figure.paper, figure.figure, figure.claim
+            );
+        }
+    }
+    let path = root().join("docs/reproduction.md");
+    fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+}

@@ -1,0 +1,531 @@
+//! What the papers print about packing, figure by figure.
+//!
+//! Numbers are from the papers' texts and tables; what is only drawn there stands as words.
+
+use sphpack::scene::Method;
+
+use super::row::{Bar, Figure, Measure, Published, Row, Setup};
+
+/// h/∆s at which Negi & Ramachandran (2021), §4.1 judge a spacing: 1.0 at 0.1, rising in a line to 1.5 at 0.02.
+fn h_at(spacing: f64) -> f64 {
+    1.0 + 0.5 * (0.1 - spacing) / 0.08
+}
+
+const PICTURE: Published = Published::Words("a picture");
+
+fn row(figure: &'static str, setup: Setup, measure: Measure) -> Row {
+    Row {
+        paper: "001",
+        figure,
+        setup,
+        over: None,
+        measure,
+        published: PICTURE,
+        bar: Bar::Beside,
+        quick: false,
+    }
+}
+
+impl Row {
+    fn of(self, paper: &'static str) -> Self {
+        Self { paper, ..self }
+    }
+
+    fn says(self, published: f64) -> Self {
+        Self {
+            published: Published::Text(published),
+            ..self
+        }
+    }
+
+    fn claims(self, words: &'static str) -> Self {
+        Self {
+            published: Published::Words(words),
+            ..self
+        }
+    }
+
+    fn at_most(self, most: f64) -> Self {
+        Self {
+            bar: Bar::AtMost(most),
+            ..self
+        }
+    }
+
+    fn at_least(self, least: f64) -> Self {
+        Self {
+            bar: Bar::AtLeast(least),
+            ..self
+        }
+    }
+
+    fn quick(self) -> Self {
+        Self {
+            quick: true,
+            ..self
+        }
+    }
+
+    fn under(self, over: Setup) -> Self {
+        Self {
+            over: Some(over),
+            ..self
+        }
+    }
+}
+
+/// All rows, paper by paper.
+pub(crate) fn rows() -> Vec<Row> {
+    let mut all = Vec::new();
+    cylinder(&mut all);
+    zigzag(&mut all);
+    starfish_and_airfoil(&mut all);
+    space(&mut all);
+    first_version(&mut all);
+    tanks(&mut all);
+    relaxation(&mut all);
+    all
+}
+
+/// 001 figs. 11 to 13.
+fn cylinder(all: &mut Vec<Row>) {
+    let of = |spacing, method| Setup::of("cylinder", spacing, method);
+    for (method, printed) in [
+        (Method::Standard, 0.08),
+        (Method::Coupled, 0.16),
+        (Method::Hybrid, 0.02),
+    ] {
+        let judged = of(0.1, method).judged(1.0);
+        all.push(
+            row("fig12", judged, Measure::VariationNear)
+                .says(printed)
+                .quick(),
+        );
+    }
+    let hybrid = of(0.1, Method::Hybrid);
+    for setup in [hybrid.at(1.0), hybrid.at(1.2)] {
+        all.push(
+            row("fig12", setup, Measure::Variation)
+                .says(0.02)
+                .at_most(0.02)
+                .quick(),
+        );
+    }
+    let even = of(0.1, Method::Balanced);
+    for setup in [even, even.consistent()] {
+        all.push(
+            row("fig12", setup, Measure::Variation)
+                .says(0.02)
+                .at_most(0.02)
+                .quick(),
+        );
+    }
+    for spacing in [0.1, 0.05, 0.02] {
+        let h = h_at(spacing);
+        let at = |method| of(spacing, method).at(h).judged(h);
+        let quick = |row: Row| if spacing == 0.1 { row.quick() } else { row };
+        let balanced = at(Method::Balanced);
+        let setups = [
+            balanced,
+            balanced.consistent(),
+            at(Method::Hybrid),
+            at(Method::Standard),
+            at(Method::Coupled),
+        ];
+        for setup in setups {
+            for measure in [Measure::FunctionAsPrinted, Measure::DerivativeAsPrinted] {
+                all.push(quick(row("fig13", setup, measure)));
+            }
+            for measure in [
+                Measure::FunctionAtParticles,
+                Measure::DerivativeAtParticles,
+                Measure::FunctionOffSites,
+                Measure::DerivativeOffSites,
+            ] {
+                all.push(quick(row("fig13", setup, measure)));
+            }
+        }
+        // "A significant order of magnitude improvement compared to both."
+        for worse in [Method::Coupled, Method::Standard] {
+            for measure in [Measure::FunctionAsPrinted, Measure::DerivativeAsPrinted] {
+                let ratio = row("fig13", at(Method::Hybrid), measure).under(at(worse));
+                all.push(quick(ratio.claims("an order of magnitude").at_least(10.0)));
+            }
+        }
+        for setup in [balanced, balanced.consistent()] {
+            let honest = row("fig13", setup, Measure::DerivativeOffSites);
+            all.push(quick(
+                honest.claims("as good as a lattice can be").at_most(1.05),
+            ));
+        }
+    }
+}
+
+/// 001 figs. 14 to 16.
+fn zigzag(all: &mut Vec<Row>) {
+    let of = |method| Setup::of("zigzag", 0.05, method);
+    for (method, printed) in [
+        (Method::Standard, 0.10),
+        (Method::Coupled, 0.30),
+        (Method::Hybrid, 0.03),
+    ] {
+        let judged = of(method).judged(1.0);
+        all.push(row("fig15", judged, Measure::VariationNear).says(printed));
+    }
+    let hybrid = of(Method::Hybrid);
+    all.push(
+        row("fig15", hybrid.at(1.0), Measure::Variation)
+            .says(0.03)
+            .at_most(0.03),
+    );
+    all.push(
+        row("fig15", hybrid.at(1.2), Measure::Variation)
+            .says(0.03)
+            .at_most(0.03)
+            .quick(),
+    );
+    let even = of(Method::Balanced);
+    for setup in [even, even.consistent()] {
+        all.push(
+            row("fig15", setup, Measure::Variation)
+                .says(0.03)
+                .at_most(0.03)
+                .quick(),
+        );
+    }
+    let h = h_at(0.05);
+    let at = |method| of(method).at(h).judged(h);
+    for worse in [Method::Coupled, Method::Standard] {
+        for measure in [Measure::FunctionAsPrinted, Measure::DerivativeAsPrinted] {
+            let ratio = row("fig16", at(Method::Hybrid), measure).under(at(worse));
+            all.push(ratio.claims("lower than both").at_least(1.0));
+        }
+    }
+}
+
+/// 001 fig. 17, table 1 and fig. 18.
+fn starfish_and_airfoil(all: &mut Vec<Row>) {
+    let starfish = |spacing| Setup::of("starfish", spacing, Method::Hybrid).at(1.2);
+    for (spacing, printed) in [(0.1, 0.025), (0.075, 0.02), (0.05, 0.03)] {
+        let setup = starfish(spacing);
+        let bar = |setup| {
+            row("fig17", setup, Measure::Variation)
+                .says(printed)
+                .at_most(printed)
+        };
+        all.push(bar(setup).quick());
+        let larger = bar(setup.times(2.0));
+        all.push(if spacing == 0.05 {
+            larger
+        } else {
+            larger.quick()
+        });
+        let even = Setup::of("starfish", spacing, Method::Balanced);
+        all.push(bar(even).quick());
+    }
+    let short = Setup::of("starfish", 0.1, Method::Hybrid).at(1.0);
+    all.push(
+        row("fig17", short, Measure::Variation)
+            .says(0.025)
+            .at_most(0.025),
+    );
+    for (tolerance, linf, iterations) in [
+        (1e-4, 0.028, 1191.0),
+        (5e-5, 0.019, 6291.0),
+        (2.5e-5, 0.011, 19_641.0),
+    ] {
+        let setup = Setup::of("naca0015", 0.02, Method::Hybrid)
+            .at(1.2)
+            .until(tolerance);
+        let quick = |row: Row| if tolerance > 3e-5 { row.quick() } else { row };
+        all.push(quick(
+            row("table1", setup, Measure::Linf).says(linf).at_most(linf),
+        ));
+        all.push(quick(
+            row("table1", setup, Measure::Iterations).says(iterations),
+        ));
+    }
+    let even = Setup::of("naca0015", 0.02, Method::Balanced);
+    all.push(
+        row("table1", even, Measure::Linf)
+            .says(0.011)
+            .at_most(0.011)
+            .quick(),
+    );
+}
+
+/// 001 figs. 19 to 21.
+fn space(all: &mut Vec<Row>) {
+    let ellipsoid = |method| Setup::of("ellipsoid", 0.1, method);
+    let hybrid = ellipsoid(Method::Hybrid).at(1.2);
+    let close = |setup| {
+        row("fig19", setup, Measure::Linf)
+            .claims("very close to 1")
+            .at_most(0.04)
+    };
+    all.push(close(hybrid).quick());
+    all.push(close(ellipsoid(Method::Balanced)).quick());
+    let at = |method| ellipsoid(method).at(1.0).judged(1.0).within(2000);
+    for measure in [Measure::FunctionAsPrinted, Measure::DerivativeAsPrinted] {
+        let ratio = row("fig20", at(Method::Hybrid), measure).under(at(Method::Coupled));
+        all.push(ratio.claims("lower than the coupled method").at_least(1.0));
+    }
+    for (spacing, method) in [
+        (0.05, Method::Hybrid),
+        (0.05, Method::Balanced),
+        (0.02, Method::Balanced),
+    ] {
+        let setup = Setup::of("bunny", spacing, method).at(1.2);
+        all.push(row("fig21", setup, Measure::OffSurface).at_most(0.05));
+    }
+}
+
+/// 000 figs. 8, 12 and 18: clipping, triangles, and their own method.
+fn first_version(all: &mut Vec<Row>) {
+    for (figure, scene, spacing, quick) in [
+        ("fig8", "cylinder", 0.1, true),
+        ("fig12", "naca0015", 0.02, false),
+    ] {
+        for method in [
+            Method::Clipped,
+            Method::Triangulated,
+            Method::Agitated,
+            Method::Balanced,
+        ] {
+            let setup = Setup::of(scene, spacing, method).judged(1.2).within(20_000);
+            let beside = row(figure, setup, Measure::Linf).of("000");
+            let is_slow = method == Method::Agitated && scene != "cylinder";
+            all.push(if quick && !is_slow {
+                beside.quick()
+            } else {
+                beside
+            });
+        }
+        let of = |method| Setup::of(scene, spacing, method).judged(1.2).within(20_000);
+        for worse in [Method::Clipped, Method::Triangulated] {
+            let ratio = row(figure, of(Method::Agitated), Measure::Linf).under(of(worse));
+            let ratio = ratio.of("000").claims("less than both").at_least(1.0);
+            all.push(if quick { ratio.quick() } else { ratio });
+        }
+    }
+}
+
+/// 002 figs. 3, 4, 9 and 10: fluid at rest in tanks.
+fn tanks(all: &mut Vec<Row>) {
+    for (figure, scene, cells, quick) in [
+        ("fig3", "trapezoid", 25.0, true),
+        ("fig3", "trapezoid", 50.0, false),
+        ("fig3", "trapezoid", 100.0, false),
+        ("fig9", "bends", 50.0, false),
+    ] {
+        let setup = Setup::of(scene, 1.0 / cells, Method::Ppa).within(20_000);
+        let rows = [
+            row(figure, setup, Measure::Iterations)
+                .claims("rest (10⁻⁸) within 2,000 to 2,500")
+                .at_most(2500.0),
+            row(figure, setup, Measure::Linf),
+        ];
+        for row in rows {
+            let row = row.of("002");
+            all.push(if quick { row.quick() } else { row });
+        }
+    }
+}
+
+/// 004 figs. 10 to 16: complex relaxation beside separate.
+fn relaxation(all: &mut Vec<Row>) {
+    for (figure, scene, spacing, quick) in [
+        ("fig10", "starfish", 0.1, true),
+        ("fig14", "zigzag", 0.05, false),
+    ] {
+        let of = |method| Setup::of(scene, spacing, method).within(4000);
+        let separate = of(Method::Relaxation);
+        for measure in [Measure::Linf, Measure::Residual] {
+            let ratio = row(figure, of(Method::Complex), measure).under(separate);
+            let ratio = ratio
+                .of("004")
+                .claims("lower than separate relaxation")
+                .at_least(1.0);
+            all.push(if quick { ratio.quick() } else { ratio });
+        }
+        for setup in [of(Method::Complex), of(Method::Balanced)] {
+            let beside = row(figure, setup, Measure::Linf).of("004");
+            all.push(if quick { beside.quick() } else { beside });
+        }
+    }
+}
+
+const FLOW: Option<&str> = Some("it shows a flow, which nothing here computes yet");
+const ELSEWHERE: Option<&str> = Some("in docs/methods.md or docs/lattices.md, not yet a row here");
+
+const fn shown(paper: &'static str, figure: &'static str, claim: &'static str) -> Figure {
+    Figure {
+        paper,
+        figure,
+        claim,
+        missing: None,
+    }
+}
+
+const fn missing(
+    paper: &'static str,
+    figure: &'static str,
+    claim: &'static str,
+    why: Option<&'static str>,
+) -> Figure {
+    Figure {
+        missing: why,
+        ..shown(paper, figure, claim)
+    }
+}
+
+/// What every figure shows, in our words; those without rows say why.
+pub(crate) const FIGURES: [Figure; 25] = [
+    missing(
+        "000",
+        "fig7",
+        "which lattices stand a perturbation and an agitator",
+        ELSEWHERE,
+    ),
+    shown(
+        "000",
+        "fig8",
+        "a cylinder: a clipped lattice, triangles, and packed particles",
+    ),
+    shown("000", "fig12", "an airfoil, likewise"),
+    missing("000", "fig13", "flow past a cylinder", FLOW),
+    missing(
+        "001",
+        "fig5",
+        "the repulsion beside one of Lennard-Jones's kind",
+        Some("a curve of two formulas, no packing"),
+    ),
+    missing(
+        "001",
+        "fig7",
+        "a displaced particle among lattices, with repulsion and without",
+        ELSEWHERE,
+    ),
+    missing(
+        "001",
+        "fig8",
+        "how often particles are put back onto the surface",
+        ELSEWHERE,
+    ),
+    shown(
+        "001",
+        "fig12",
+        "density in and around a cylinder by three methods; the hybrid one varies least",
+    ),
+    shown(
+        "001",
+        "fig13",
+        "how well particles around a cylinder interpolate a function and its derivative",
+    ),
+    shown("001", "fig15", "density at a zig-zag wall by three methods"),
+    shown(
+        "001",
+        "fig16",
+        "how well particles at the zig-zag wall interpolate",
+    ),
+    shown(
+        "001",
+        "fig17",
+        "density in and around a starfish at three spacings",
+    ),
+    shown(
+        "001",
+        "table1",
+        "a smaller tolerance brings an evener airfoil, for more iterations",
+    ),
+    shown("001", "fig19", "an ellipsoid in space"),
+    shown(
+        "001",
+        "fig20",
+        "how well particles around the ellipsoid interpolate",
+    ),
+    shown("001", "fig21", "a rabbit: particles on its surface"),
+    missing("001", "fig22", "flow past a cylinder", FLOW),
+    shown(
+        "002",
+        "fig3",
+        "fluid in a tank with sloping walls comes to rest",
+    ),
+    shown("002", "fig9", "fluid in a tank with bends comes to rest"),
+    missing(
+        "002",
+        "fig11",
+        "a disc and a hull's section in a tank",
+        Some("no scene for it yet"),
+    ),
+    missing(
+        "003",
+        "fig7",
+        "a packed airfoil at 5°, its surface found by the divergence of positions",
+        Some("no scene for it yet"),
+    ),
+    missing(
+        "004",
+        "fig8",
+        "an airfoil of three elements, the gaps at its edges",
+        ELSEWHERE,
+    ),
+    shown(
+        "004",
+        "fig10",
+        "a starfish by separate and complex relaxation",
+    ),
+    shown(
+        "004",
+        "fig14",
+        "a zig-zag wall by separate and complex relaxation",
+    ),
+    missing(
+        "004",
+        "fig20",
+        "packing and energy of an airfoil at rest in flow",
+        FLOW,
+    ),
+];
+
+/// Rows that are known not to hold, by [`Row::id`], and why.
+pub(crate) const KNOWN_MISSES: [(&str, &str); 0] = [];
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn rows_have_names_of_their_own_and_figures() {
+        let rows = rows();
+        let mut ids = BTreeSet::new();
+        for row in &rows {
+            let of_another_bar = matches!(row.bar, Bar::Beside);
+            assert!(ids.insert((row.id(), of_another_bar)), "{}", row.id());
+            let figure = FIGURES
+                .iter()
+                .find(|f| (f.paper, f.figure) == (row.paper, row.figure));
+            assert!(
+                figure.is_some_and(|figure| figure.missing.is_none()),
+                "{}",
+                row.id()
+            );
+        }
+        for figure in FIGURES.iter().filter(|figure| figure.missing.is_none()) {
+            let mut own = rows
+                .iter()
+                .filter(|row| (row.paper, row.figure) == (figure.paper, figure.figure));
+            assert!(own.next().is_some(), "{} {}", figure.paper, figure.figure);
+        }
+    }
+
+    #[test]
+    fn known_misses_are_of_rows() {
+        let ids: Vec<String> = rows().iter().map(Row::id).collect();
+        for (id, _) in KNOWN_MISSES {
+            assert!(ids.iter().any(|row| row == id), "{id}");
+        }
+    }
+}
