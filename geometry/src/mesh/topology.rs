@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sphpack_neighbors::point;
 
-use crate::{GeometryError, MeshError};
+use crate::MeshError;
 
 /// One side of one triangle, in two numbers so that millions of them sort fast.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -53,18 +53,14 @@ impl Side {
 }
 
 /// Refuses vertices that are no finite numbers, and corners that are no places in `vertices`.
-pub(crate) fn check_places(
-    vertices: &[[f64; 3]],
-    triangles: &[[u32; 3]],
-) -> Result<(), GeometryError> {
+pub(crate) fn check_places(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     // Squares must stay finite too, or every distance is infinite.
     let is_bad = |&v: &[f64; 3]| !point::norm_squared(v).is_finite();
     if let Some(index) = vertices.iter().position(is_bad) {
         return Err(MeshError::NotFinite {
             what: "vertex",
             index,
-        }
-        .into());
+        });
     }
     let count = vertices.len();
     for (triangle, corners) in triangles.iter().enumerate() {
@@ -73,8 +69,7 @@ pub(crate) fn check_places(
                 triangle,
                 vertex: vertex as usize,
                 vertices: count,
-            }
-            .into());
+            });
         }
     }
     Ok(())
@@ -98,10 +93,7 @@ pub(crate) fn edges(sides: &[Side]) -> impl Iterator<Item = &[Side]> {
 }
 
 /// Whether every edge has exactly two triangles that run along it in opposite directions.
-pub(super) fn check_closed(
-    vertices: &[[f64; 3]],
-    triangles: &[[u32; 3]],
-) -> Result<(), GeometryError> {
+pub(super) fn check_closed(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     let (mut open_edges, mut non_manifold, mut wrong_way) = (0, 0, 0);
     let (mut first_hole, mut first_wrong) = (None, None);
     for edge in edges(&sorted_sides(triangles)) {
@@ -126,15 +118,13 @@ pub(super) fn check_closed(
             open_edges,
             non_manifold,
             place,
-        }
-        .into());
+        });
     }
     match first_wrong {
         Some(place) => Err(MeshError::InconsistentFacing {
             edges: wrong_way,
             place,
-        }
-        .into()),
+        }),
         None => Ok(()),
     }
 }

@@ -4,23 +4,22 @@ use sphpack_neighbors::{Bounds, point};
 
 use super::{Outline, SAME_POINT};
 use crate::segment::{cross, meeting, signed_area};
-use crate::{GeometryError, LoopSide, OutlineError};
+use crate::{LoopSide, OutlineError};
 
 /// The loops without repeated consecutive points (the first at the end included).
 pub(super) fn without_repeats(
     loops: Vec<Vec<[f64; 2]>>,
-) -> Result<Vec<Vec<[f64; 2]>>, GeometryError> {
+) -> Result<Vec<Vec<[f64; 2]>>, OutlineError> {
     if loops.is_empty() {
         return Err(OutlineError::TooFewPoints {
             loop_index: 0,
             count: 0,
-        }
-        .into());
+        });
     }
     for (index, p) in loops.iter().flatten().enumerate() {
         // Squares must stay finite too, or every distance is infinite.
         if !point::norm_squared(*p).is_finite() {
-            return Err(OutlineError::NotFinite { index }.into());
+            return Err(OutlineError::NotFinite { index });
         }
     }
     let mut clean = Vec::with_capacity(loops.len());
@@ -40,11 +39,10 @@ pub(super) fn without_repeats(
             return Err(OutlineError::TooFewPoints {
                 loop_index,
                 count: kept.len(),
-            }
-            .into());
+            });
         }
         if kept.len() == 3 && signed_area(&kept).abs() <= 1e-15 * size * size {
-            return Err(OutlineError::NoArea { loop_index }.into());
+            return Err(OutlineError::NoArea { loop_index });
         }
         clean.push(kept);
     }
@@ -52,11 +50,11 @@ pub(super) fn without_repeats(
 }
 
 /// Whether no two sides meet other than neighbours at their common point. O(n log n) for sides that spread out.
-pub(super) fn no_meetings(outline: &Outline) -> Result<(), GeometryError> {
+pub(super) fn no_meetings(outline: &Outline) -> Result<(), OutlineError> {
     for (loop_index, points) in outline.loops().enumerate() {
         let size = Bounds::of(points).size();
         if size[0] == 0.0 || size[1] == 0.0 {
-            return Err(OutlineError::NoArea { loop_index }.into());
+            return Err(OutlineError::NoArea { loop_index });
         }
     }
     match first_meeting(outline) {
@@ -70,13 +68,12 @@ pub(super) fn no_meetings(outline: &Outline) -> Result<(), GeometryError> {
                 first: side(i),
                 second: side(j),
                 place,
-            }
-            .into());
+            });
         }
     }
     for (loop_index, points) in outline.loops().enumerate() {
         if signed_area(points) == 0.0 {
-            return Err(OutlineError::NoArea { loop_index }.into());
+            return Err(OutlineError::NoArea { loop_index });
         }
     }
     Ok(())
