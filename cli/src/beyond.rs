@@ -82,7 +82,7 @@ where
         let Some(continued) = continued.map_err(|source| Error::Body {
             path: scene.path.clone(),
             body: body.name.clone(),
-            source,
+            error: source,
         })?
         else {
             continue;

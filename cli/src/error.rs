@@ -31,24 +31,24 @@ pub enum Error {
         message: String,
     },
     /// The scene can be read, but not packed.
-    #[error("{}: {source}{}{}", path.display(), more(packing_cure(source)), more(advice.as_deref()))]
+    #[error("{}: {error}{}{}", path.display(), more(packing_cure(error)), more(advice.as_deref()))]
     Packing {
         /// The scene's file.
         path: PathBuf,
         /// What is wrong.
-        source: Box<PackingError>,
+        error: Box<PackingError>,
         /// What else may help.
         advice: Option<String>,
     },
     /// A body cannot be built.
-    #[error("{}: body \"{body}\": {}", path.display(), cured(source))]
+    #[error("{}: body \"{body}\": {}", path.display(), cured(error))]
     Body {
         /// The scene's file.
         path: PathBuf,
         /// The body's name.
         body: String,
         /// What is wrong.
-        source: GeometryError,
+        error: GeometryError,
     },
     /// An input file cannot be used.
     #[error("{}{}: {message}", path.display(), place(at.map(|line| (line, 0))))]
@@ -117,7 +117,8 @@ pub(crate) fn cured(error: &GeometryError) -> String {
 
 fn packing_cure(error: &PackingError) -> Option<&'static str> {
     match error {
-        PackingError::Surface { source, .. } => cure(source),
+        PackingError::Surface { error, .. } => cure(error),
+        PackingError::OutsideDomain { .. } => Some("or use margin = … instead of min and max"),
         _ => None,
     }
 }

@@ -94,7 +94,7 @@ fn failed(scene: &Scene, source: PackingError) -> Error {
     Error::Packing {
         advice: None,
         path: scene.path.clone(),
-        source: Box::new(source),
+        error: Box::new(source),
     }
 }
 

@@ -214,7 +214,7 @@ where
                 source => Error::Body {
                     path: scene.path.clone(),
                     body: body.name.clone(),
-                    source,
+                    error: source,
                 },
             })?;
         all.push(built);
@@ -287,7 +287,7 @@ where
     let fail = |source: PackingError| Error::Packing {
         path: scene.path.clone(),
         advice: units::advice(scene, &problem, &source),
-        source: Box::new(source),
+        error: Box::new(source),
     };
     let moves = match scene.packing.method.info().moves {
         Moves::Nothing => 0.0,

@@ -122,7 +122,7 @@ pub enum PackingError {
     },
     /// A body sticks out of the domain.
     #[error(
-        "body \"{body}\" reaches outside the domain (body from {}); enlarge the domain, or use margin = … instead of min and max",
+        "body \"{body}\" reaches outside the domain (body from {}); enlarge the domain",
         words::corners(body_min, body_max)
     )]
     OutsideDomain {
@@ -184,12 +184,12 @@ pub enum PackingError {
         allowed_bytes: f64,
     },
     /// A body's particle surface cannot be built.
-    #[error("body \"{body}\": {source}")]
+    #[error("body \"{body}\": {error}")]
     Surface {
         /// The body's name.
         body: String,
         /// What is wrong.
-        source: GeometryError,
+        error: GeometryError,
     },
 }
 

@@ -143,7 +143,7 @@ pub fn particle_surfaces<const D: usize>(
                     .inset(depth)
                     .map_err(|source| PackingError::Surface {
                         body: body.name.clone(),
-                        source,
+                        error: source,
                     })?
             };
             let target = surface.measure() / problem.spacing().powi(D as i32 - 1);

@@ -98,7 +98,7 @@ impl Balanced {
                 let depth = body.inset_over_spacing * problem.spacing();
                 return Err(PackingError::Surface {
                     body: body.name.clone(),
-                    source: InsetError::Vanished { depth }.into(),
+                    error: InsetError::Vanished { depth }.into(),
                 });
             }
         }
@@ -351,7 +351,7 @@ fn inset<const D: usize>(
         Err(GeometryError::Inset(InsetError::Vanished { .. })) => Ok(None),
         Err(source) => Err(PackingError::Surface {
             body: body.name.clone(),
-            source,
+            error: source,
         }),
     }
 }
@@ -367,7 +367,7 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
     for body in &problem.bodies {
         let fail = |source| PackingError::Surface {
             body: body.name.clone(),
-            source,
+            error: source,
         };
         let depth = body.inset_over_spacing * problem.spacing();
         let is_usual = is_usual(body);

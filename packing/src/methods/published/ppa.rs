@@ -321,7 +321,7 @@ impl Ppa {
         for (number, body) in problem.bodies.iter().enumerate() {
             let fail = |source| PackingError::Surface {
                 body: body.name.clone(),
-                source,
+                error: source,
             };
             for layer in 0..layers {
                 let depth = (layer as f64 + 0.5) * problem.spacing();

@@ -154,7 +154,7 @@ fn layers<const D: usize>(
     for (body, number) in problem.bodies.iter().zip(0_u16..) {
         let fail = |source| PackingError::Surface {
             body: body.name.clone(),
-            source,
+            error: source,
         };
         let is_taken = |p: [f64; D]| {
             let earlier = &problem.bodies[..usize::from(number)];

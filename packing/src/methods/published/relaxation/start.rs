@@ -54,7 +54,7 @@ impl<const D: usize> Start<D> {
             let on_surface = held.target_count.min(share.sites);
             let fail = |source: GeometryError| PackingError::Surface {
                 body: problem.bodies[region].name.clone(),
-                source,
+                error: source,
             };
             let points = held.surface.sample(on_surface).map_err(fail)?;
             let deep = share.sites.saturating_sub(points.len());
