@@ -28,12 +28,15 @@ fn strewn<const D: usize>(count: usize, ratio: f64, seed: u64) -> Particles<D> {
     particles
 }
 
-/// Γ, ∇Γ and repulsion of every target, and the energy.
+/// Γ, ∇Γ and repulsion.
+type Sums<const D: usize> = (f64, [f64; D], [f64; D]);
+
+/// The sums of every particle, and the energy of the targets.
 fn by_all_pairs<const D: usize>(
     particles: &Particles<D>,
     domain: &Domain<D>,
     repulsion: Repulsion,
-) -> (Vec<(f64, [f64; D], [f64; D])>, f64) {
+) -> (Vec<Sums<D>>, f64) {
     let sizes = &particles.sizes;
     let mut energy = 0.0;
     let sums = (0..particles.len())

@@ -192,7 +192,7 @@ impl Term for Repulsion {
             let mut inverse = group.inverse.0[j];
             if let Some(smaller) = smaller {
                 square = square * smaller[j] * smaller[j];
-                inverse = inverse / smaller[j];
+                inverse /= smaller[j];
             }
             let repelled = square.simd_lt(constant(c.reach_squared)) & square.simd_gt(zero);
             if repelled.any_true() {
@@ -205,7 +205,7 @@ impl Term for Repulsion {
                 let force = repelled.select(force, zero);
                 let mut push = force * group.inverse.0[j];
                 if let Some(smaller) = smaller {
-                    push = push * smaller[j];
+                    push *= smaller[j];
                 }
                 for k in 0..D {
                     sums.acceleration[k] = push.mul_add(group.apart[j][k], sums.acceleration[k]);
