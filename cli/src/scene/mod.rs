@@ -228,7 +228,7 @@ pub enum Frozen {
 pub struct PackingSpec {
     /// The method.
     pub method: Method,
-    /// The kernel that packs; `None` is the method's own ([`Method::kernel`]).
+    /// The kernel that packs; `None` is the method's own ([`Method::info`]).
     #[serde(
         with = "named::optional_kernel",
         skip_serializing_if = "Option::is_none"
