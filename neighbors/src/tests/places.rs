@@ -119,6 +119,8 @@ proptest! {
             prop_assert_eq!(point::scale(a, s)[k], s * a[k]);
             prop_assert_eq!(point::add_scaled(a, s, b)[k], a[k] + s * b[k]);
         }
+        prop_assert_eq!(point::of_slice::<3>(&a[..2]), [a[0], a[1], 0.0]);
+        prop_assert_eq!(point::of_slice::<2>(&a), [a[0], a[1]]);
         let product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         prop_assert!((point::dot(a, b) - product).abs() < 1e-12);
         let square = a.iter().map(|x| x * x).sum::<f64>();
