@@ -29,7 +29,8 @@ fn all_pairs<const D: usize>(
     i: usize,
 ) -> Vec<(usize, [f64; D])> {
     let size = domain.bounds.size();
-    let away = supports.iter().copied().fold(0.0, f64::max).ceil() as i32 + 1;
+    let farthest = supports.iter().copied().fold(0.0, f64::max);
+    let away = (farthest / size[0]).ceil() as i32 + 1;
     let steps = 2 * away + 1;
     let mut found = Vec::new();
     for (j, &q) in points.iter().enumerate() {
@@ -48,11 +49,17 @@ fn all_pairs<const D: usize>(
     found
 }
 
+/// In a scene whose box is `scene_unit` long: no support is then of the size of a skin, which has no unit.
 fn check<const D: usize>(
     (points, supports): &(Vec<[f64; D]>, Vec<f64>),
     periodic: [bool; D],
+    scene_unit: f64,
 ) -> Result<(), TestCaseError> {
-    let domain = Domain::new([0.0; D], [1.0; D]).with_periodic(periodic);
+    let points: &Vec<[f64; D]> = &(points.iter())
+        .map(|&p| point::scale(p, scene_unit))
+        .collect();
+    let supports: &Vec<f64> = &supports.iter().map(|s| s * scene_unit).collect();
+    let domain = Domain::new([0.0; D], [scene_unit; D]).with_periodic(periodic);
     let skin = 0.2;
     let shells = [0.2, 1.0 / 3.0, 2.0 / 3.0];
     let mut list = CellList::new(&domain, 0.0)
@@ -100,7 +107,7 @@ fn check<const D: usize>(
             }
             for (j, way) in all_pairs(&domain, points, supports, i) {
                 let same = |(k, other): &&(usize, [f64; D])| {
-                    *k == j && point::distance(*other, way) < 1e-9
+                    *k == j && point::distance(*other, way) < 1e-9 * scene_unit
                 };
                 prop_assert_eq!(
                     found.iter().filter(same).count(),
@@ -136,6 +143,8 @@ fn check<const D: usize>(
     let mut wider = supports.clone();
     wider[0] *= 1.0 + 0.51 * skin;
     prop_assert!(list.update_each(&far, &wider, is_target));
+    // Of one support the skin is a length.
+    let mut list = list.with_skin(skin * scene_unit);
     prop_assert!(list.update_some(&far, is_target), "another kind of reach");
     Ok(())
 }
@@ -144,14 +153,42 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
     #[test]
-    fn each_its_own_reach_2d(set in sets::<2>(), periodic in prop::array::uniform2(any::<bool>())) {
-        check(&set, periodic)?;
+    fn each_its_own_reach_2d(
+        set in sets::<2>(),
+        periodic in prop::array::uniform2(any::<bool>()),
+        scene_unit in prop::sample::select(&[1.0, 2e-4, 7e5]),
+    ) {
+        check(&set, periodic, scene_unit)?;
     }
 
     #[test]
-    fn each_its_own_reach_3d(set in sets::<3>(), periodic in prop::array::uniform3(any::<bool>())) {
+    fn each_its_own_reach_3d(
+        set in sets::<3>(),
+        periodic in prop::array::uniform3(any::<bool>()),
+        scene_unit in prop::sample::select(&[1.0, 2e-4, 7e5]),
+    ) {
         let points: Vec<[f64; 3]> = set.0.into_iter().take(60).collect();
         let supports = set.1[..points.len()].iter().map(|s| s.min(1.0)).collect();
-        check(&(points, supports), periodic)?;
+        check(&(points, supports), periodic, scene_unit)?;
+    }
+
+    /// Blocks of several chunks, which must find their particles' reaches again.
+    #[test]
+    fn long_lists_know_how_far_every_particle_looks(
+        points in prop::collection::vec(prop::array::uniform2(0.0..1.0_f64), 300..600),
+        ratio in 1.0..15.0_f64,
+    ) {
+        let support = |i: usize| 0.01 * ratio.powf((i as f64 * 0.618_033_988_749).fract());
+        let supports: Vec<f64> = (0..points.len()).map(support).collect();
+        let mut list = CellList::new(&Domain::new([0.0; 2], [1.0; 2]), 0.0);
+        list.update_each(&points, &supports, |i| i % 7 != 0);
+        prop_assert_eq!(list.support(), supports.iter().copied().fold(0.0, f64::max));
+        for i in (0..points.len()).filter(|i| i % 7 != 0) {
+            let near = |&j: &usize| {
+                j != i && point::distance(points[i], points[j]) <= supports[i].max(supports[j])
+            };
+            let expected: Vec<usize> = (0..points.len()).filter(near).collect();
+            prop_assert_eq!(list.of(i, &points), expected, "particle {}", i);
+        }
     }
 }
