@@ -1,9 +1,10 @@
 //! Bodies in files: of which format they are, and what was read.
 
-use std::io::Read;
-use std::path::Path;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 
-use sphpack_geometry::{BodyFormat, GeometryError, ReadError};
+use sphpack_geometry::{BodyFormat, GeometryError};
 
 use crate::Error;
 
@@ -25,32 +26,57 @@ pub struct ReadBody {
 /// # Errors
 /// [`Error::Input`] where the file cannot be read, or is of no format that is read.
 pub fn body_format(path: &Path) -> Result<BodyFormat, Error> {
-    let file = crate::files::open(path)?;
-    let size = file.metadata().map_or(0, |meta| meta.len());
-    let mut head = Vec::new();
-    file.take(BodyFormat::HEAD_BYTES as u64)
-        .read_to_end(&mut head)
-        .map_err(|e| Error::input(path, format!("cannot be read ({e})")))?;
-    BodyFormat::detect_head(&head, size, &extension(path))
-        .map_err(|e| Error::input(path, e.to_string()))
+    begin(path).map(|(_, _, format)| format)
 }
 
-/// Builds a body from its file's whole content; errors name the file.
-pub(crate) fn read<T>(
-    path: &Path,
-    build: impl FnOnce(BodyFormat, &[u8]) -> Result<T, GeometryError>,
-) -> Result<(BodyFormat, T), GeometryError> {
-    std::fs::read(path)
-        .map_err(|e| {
-            GeometryError::from(ReadError::Unreadable {
-                reason: e.to_string(),
-            })
+/// The file, its beginning, and the format that this tells.
+fn begin(path: &Path) -> Result<(File, Vec<u8>, BodyFormat), Error> {
+    let mut file = crate::files::open(path)?;
+    let size = file.metadata().map_or(0, |meta| meta.len());
+    let mut head = Vec::new();
+    (&mut file)
+        .take(BodyFormat::HEAD_BYTES as u64)
+        .read_to_end(&mut head)
+        .map_err(|e| unreadable(path, &e))?;
+    let format = BodyFormat::detect_head(&head, size, &extension(path))
+        .map_err(|e| Error::input(path, e.to_string()))?;
+    Ok((file, head, format))
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> Error {
+    Error::input(path, format!("cannot be read ({error})"))
+}
+
+/// A body's file, opened once and read to its end.
+#[derive(Debug)]
+pub(crate) struct BodyFile {
+    path: PathBuf,
+    /// As its beginning tells.
+    pub(crate) format: BodyFormat,
+    bytes: Vec<u8>,
+}
+
+impl BodyFile {
+    /// Reads a file; one of no format that is read is refused by its beginning.
+    pub(crate) fn read(path: &Path) -> Result<Self, Error> {
+        let (mut file, mut bytes, format) = begin(path)?;
+        (file.read_to_end(&mut bytes)).map_err(|e| unreadable(path, &e))?;
+        Ok(Self {
+            path: path.to_owned(),
+            format,
+            bytes,
         })
-        .and_then(|bytes| {
-            let format = BodyFormat::detect(&bytes, &extension(path))?;
-            Ok((format, build(format, &bytes)?))
-        })
-        .map_err(|e| e.in_file(path))
+    }
+
+    /// A body from the whole content; errors name the file.
+    pub(crate) fn body<T>(
+        &self,
+        build: impl FnOnce(BodyFormat, &[u8]) -> Result<T, GeometryError>,
+    ) -> Result<(BodyFormat, T), GeometryError> {
+        BodyFormat::detect(&self.bytes, &extension(&self.path))
+            .and_then(|format| Ok((format, build(format, &self.bytes)?)))
+            .map_err(|e| e.in_file(&self.path))
+    }
 }
 
 fn extension(path: &Path) -> String {

@@ -1,12 +1,12 @@
 //! The one place where two and three dimensions are told apart, and what both can do.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use sphpack_geometry::{BodyFormat, Continued, GeometryError, Mesh, Outline, Similarity, Surface};
 use sphpack_neighbors::Domain;
 use sphpack_packing::Method;
 
+use crate::body_file::BodyFile;
 use crate::scene::{BodySpec, Scene, Shape};
 
 /// Work whose dimension, 2 or 3, is known only when it runs: the one place where the two ways part.
@@ -80,7 +80,7 @@ pub(crate) trait Dimension<const D: usize>: Cuttable<D> {
     /// The body's shape, placed. `file` is the shape's file as seen from the working directory.
     fn build(
         shape: &Shape,
-        file: Option<&Path>,
+        file: Option<&BodyFile>,
         place: &Similarity<D>,
     ) -> Result<Built<D>, GeometryError>;
 

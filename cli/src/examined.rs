@@ -9,7 +9,7 @@ use sphpack_geometry::{
 use sphpack_neighbors::Bounds;
 
 use crate::Error;
-use crate::body_file::{self, body_format};
+use crate::body_file::BodyFile;
 use crate::error::cured;
 use crate::findings::{MeshFindings, OutlineFindings};
 
@@ -106,11 +106,13 @@ impl Examined {
             source => Error::input(path, cured(&source)),
         };
         // What keeps the file from being opened is said as of any other file.
-        if body_format(path)?.dimension() == 2 {
-            let (format, sketch) = body_file::read(path, Sketch::from_bytes).map_err(in_file)?;
+        let file = BodyFile::read(path)?;
+        if file.format.dimension() == 2 {
+            let (format, sketch) = file.body(Sketch::from_bytes).map_err(in_file)?;
             return Ok(Self::of_sketch(path, format, &sketch, what.spacing));
         }
-        let (format, soup) = body_file::read(path, Soup::from_bytes).map_err(in_file)?;
+        let (format, soup) = file.body(Soup::from_bytes).map_err(in_file)?;
+        drop(file);
         let report = soup.check();
         let mut examined = Self::new(path, format, report.bounds);
         examined.measure = report.area;

@@ -7,7 +7,7 @@ use sphpack_neighbors::{Bounds, Domain, point, words};
 use sphpack_packing::{Body, Estimate, FrozenLayout, Kind, Moves, PackingError, Problem};
 
 use crate::Error;
-use crate::body_file::{ReadBody, body_format};
+use crate::body_file::{BodyFile, ReadBody};
 use crate::dimension::{Built, Dimension, Space, in_dimension};
 use crate::error::cured;
 use crate::scene::{Fault, Frozen, Role, Scene, Surroundings};
@@ -66,14 +66,19 @@ const READ_BYTES: f64 = 315.0;
 /// Those of [`crate::run`].
 pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
     let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
-    in_dimension!(dimension(scene)?, D => planned::<D>(scene, allowed_bytes))
+    planned_of(scene, opened(scene)?, allowed_bytes)
 }
 
-fn planned<const D: usize>(scene: &Scene, allowed_bytes: f64) -> Result<Plan, Error>
+/// [`plan`] of a scene whose bodies' files are read.
+pub(crate) fn planned_of(scene: &Scene, opened: Opened, allowed_bytes: f64) -> Result<Plan, Error> {
+    in_dimension!(opened.dimension, D => planned::<D>(scene, opened, allowed_bytes))
+}
+
+fn planned<const D: usize>(scene: &Scene, opened: Opened, allowed_bytes: f64) -> Result<Plan, Error>
 where
     Space<D>: Dimension<D>,
 {
-    let (prepared, estimate) = prepare::<D>(scene, allowed_bytes)?;
+    let (prepared, estimate) = prepare::<D>(scene, opened, allowed_bytes)?;
     methods::check(&prepared.problem, &prepared.resolved)?;
     let names = prepared.resolved.body.into_iter().map(|body| body.name);
     Ok(Plan {
@@ -87,8 +92,15 @@ where
     })
 }
 
-/// 2 or 3; looks into files where need be. Refuses scenes that do not pass [`Scene::check`], or mix dimensions.
-pub(crate) fn dimension(scene: &Scene) -> Result<usize, Error> {
+/// A scene's dimension, and what its bodies' files hold, in their order.
+pub(crate) struct Opened {
+    pub(crate) dimension: usize,
+    files: Vec<Option<BodyFile>>,
+}
+
+/// Reads the bodies' files, each once. Refuses scenes that do not pass [`Scene::check`], or mix dimensions.
+pub(crate) fn opened(scene: &Scene) -> Result<Opened, Error> {
+    let mut files = Vec::new();
     let fail = |message: String| Error::Scene {
         path: scene.path.clone(),
         at: None,
@@ -106,15 +118,20 @@ pub(crate) fn dimension(scene: &Scene) -> Result<usize, Error> {
         let (dimension, what) = match body.shape.file() {
             Some(file) => {
                 let path = scene.resolve(file);
-                let format =
-                    body_format(&path).map_err(|error| of_body(error, scene, &body.name))?;
+                let read =
+                    BodyFile::read(&path).map_err(|error| of_body(error, scene, &body.name))?;
+                let format = read.format;
+                files.push(Some(read));
                 let what = format.description();
                 (format.dimension(), format!("{}, {what}", path.display()))
             }
-            None => (
-                body.shape.dimension().unwrap_or(3),
-                body.shape.name().to_owned(),
-            ),
+            None => {
+                files.push(None);
+                (
+                    body.shape.dimension().unwrap_or(3),
+                    body.shape.name().to_owned(),
+                )
+            }
         };
         match &known {
             Some((other, of)) if *other != dimension => {
@@ -155,7 +172,7 @@ pub(crate) fn dimension(scene: &Scene) -> Result<usize, Error> {
             "domain.periodic has {} entries; it needs {dimension}, one for each axis",
             periodic.len()
         ))),
-        _ => Ok(dimension),
+        _ => Ok(Opened { dimension, files }),
     }
 }
 
@@ -182,6 +199,7 @@ fn four_digits(x: f64) -> f64 {
 /// Builds the bodies and the problem, and sees whether it makes sense and fits into memory.
 pub(crate) fn prepare<const D: usize>(
     scene: &Scene,
+    opened: Opened,
     allowed_bytes: f64,
 ) -> Result<(Prepared<D>, Estimate), Error>
 where
@@ -189,10 +207,9 @@ where
 {
     let begin = Instant::now();
     let mut all = Vec::new();
-    for body in &scene.body {
-        let file = body.shape.file().map(|file| scene.resolve(file));
+    for (body, file) in scene.body.iter().zip(opened.files) {
         let built = Space::<D>::place(body)
-            .and_then(|place| Space::<D>::build(&body.shape, file.as_deref(), &place))
+            .and_then(|place| Space::<D>::build(&body.shape, file.as_ref(), &place))
             .map_err(|source| match source {
                 // The message names the file already.
                 GeometryError::InFile { path, error } => Error::Input {

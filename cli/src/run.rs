@@ -14,7 +14,7 @@ use crate::dimension::{Dimension, Space, in_dimension};
 use crate::hydrostatic::AtRest;
 use crate::labels::{Sorted, sort};
 use crate::methods::pack;
-use crate::plan::{Prepared, available_bytes, dimension, judged, prepare};
+use crate::plan::{Opened, Prepared, available_bytes, judged, opened, prepare};
 use crate::report::{
     BodyReport, Counts, MassReport, Report, SCHEMA, SecondsReport, finite, finite_surface,
     peak_memory_bytes,
@@ -58,12 +58,23 @@ pub fn run(
     options: &Options,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
+    run_opened(scene, opened(scene)?, options, observer)
+}
+
+/// [`run`] of a scene whose bodies' files are read.
+pub(crate) fn run_opened(
+    scene: &Scene,
+    opened: Opened,
+    options: &Options,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
     let allowed = options.memory_bytes.unwrap_or_else(available_bytes);
-    in_dimension!(dimension(scene)?, D => run_in::<D>(scene, allowed, observer))
+    in_dimension!(opened.dimension, D => run_in::<D>(scene, opened, allowed, observer))
 }
 
 fn run_in<const D: usize>(
     scene: &Scene,
+    opened: Opened,
     allowed_bytes: f64,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error>
@@ -71,7 +82,7 @@ where
     Space<D>: Dimension<D>,
     Packing: From<Solution<D>>,
 {
-    let (prepared, _) = prepare::<D>(scene, allowed_bytes)?;
+    let (prepared, _) = prepare::<D>(scene, opened, allowed_bytes)?;
     let Prepared {
         problem,
         resolved,

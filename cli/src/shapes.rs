@@ -5,13 +5,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sphpack_geometry::{
-    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, Outline, ParameterError, Placed, Similarity,
-    Sketch, Soup, Surface, Torus,
+    Ball, Cuboid, Cylinder, Ellipsoid, GeometryError, Outline, ParameterError, Placed, ReadError,
+    Similarity, Sketch, Soup, Surface, Torus,
 };
 use sphpack_neighbors::point;
 use sphpack_packing::Method;
 
-use crate::body_file;
+use crate::body_file::BodyFile;
 use crate::dimension::{Built, Dimension, Space};
 use crate::methods;
 use crate::scene::{BodySpec, Scene, Shape};
@@ -41,7 +41,7 @@ impl Dimension<2> for Space<2> {
 
     fn build(
         shape: &Shape,
-        file: Option<&Path>,
+        file: Option<&BodyFile>,
         place: &Similarity<2>,
     ) -> Result<Built<2>, GeometryError> {
         let mut read = None;
@@ -101,9 +101,8 @@ impl Dimension<2> for Space<2> {
             } => Outline::zigzag(*width, *height, *amplitude, *teeth)?,
             Shape::Naca { digits, chord } => Outline::naca(digits, *chord)?,
             Shape::File(path) => {
-                let (format, mended) = body_file::read(file.unwrap_or(path), |format, bytes| {
-                    Sketch::from_bytes(format, bytes)?.body()
-                })?;
+                let (format, mended) = opened(file, path)?
+                    .body(|format, bytes| Sketch::from_bytes(format, bytes)?.body())?;
                 read = Some((format, mended.outline.points().len()));
                 repairs = mended.done.iter().map(ToString::to_string).collect();
                 mended.outline
@@ -134,7 +133,7 @@ impl Dimension<3> for Space<3> {
 
     fn build(
         shape: &Shape,
-        file: Option<&Path>,
+        file: Option<&BodyFile>,
         place: &Similarity<3>,
     ) -> Result<Built<3>, GeometryError> {
         let surface: Arc<dyn Surface<3>> = match shape {
@@ -173,8 +172,7 @@ impl Dimension<3> for Space<3> {
                 minor * place.scale(),
             )?),
             Shape::File(path) => {
-                let path = file.unwrap_or(path);
-                let (format, (triangles, mended)) = body_file::read(path, |format, bytes| {
+                let (format, (triangles, mended)) = opened(file, path)?.body(|format, bytes| {
                     let soup = Soup::from_bytes(format, bytes)?;
                     Ok((soup.triangles().len(), soup.transformed(place)?.body()?))
                 })?;
@@ -188,6 +186,14 @@ impl Dimension<3> for Space<3> {
         };
         Ok(Built::new(surface, Vec::new()))
     }
+}
+
+/// The shape's file, which whoever builds has read.
+fn opened<'a>(file: Option<&'a BodyFile>, path: &Path) -> Result<&'a BodyFile, GeometryError> {
+    file.ok_or_else(|| {
+        let reason = "nobody has read it".to_owned();
+        GeometryError::from(ReadError::Unreadable { reason }).in_file(path)
+    })
 }
 
 /// A closed curve as a polygon for pictures.

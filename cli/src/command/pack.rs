@@ -19,9 +19,9 @@ use crate::Error;
 use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};
 use crate::files::{AtomicFiles, ParticleFormat, compare};
 use crate::picture::{PictureFormat, Subject, draw};
-use crate::plan::{available_bytes, dimension, plan};
+use crate::plan::{Opened, available_bytes, opened, planned_of};
 use crate::report::peak_memory_bytes;
-use crate::run::{Options, Outcome, run as pack};
+use crate::run::{Options, Outcome, run_opened};
 use crate::scene::{Method, Scene};
 use crate::surroundings::surrounded;
 use crate::table::Table;
@@ -32,17 +32,17 @@ const MARGIN_OVER_SPACING: f64 = 8.0;
 pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let begin = Instant::now();
     let scene = scene(arguments)?;
-    let dimension = dimension(&scene)?;
-    let files = Files::new(arguments, &scene, dimension)?;
+    let opened = opened(&scene)?;
+    let files = Files::new(arguments, &scene, opened.dimension)?;
     threads::start(arguments.threads)?;
     if arguments.dry_run {
-        return dry_run(&scene, arguments.quiet);
+        return dry_run(&scene, opened, arguments.quiet);
     }
     let keeping = Keeping::new(arguments, &scene, &files.particles[0].0)?;
     interrupt::watch(arguments.quiet)?;
     memory_guard::watch(available_bytes());
     let mut watcher = Watcher::new(arguments.quiet, keeping);
-    let outcome = pack(&scene, &Options::default(), &mut watcher);
+    let outcome = run_opened(&scene, opened, &Options::default(), &mut watcher);
     let keeping = watcher.end();
     // Methods that move nothing have something to write too.
     interrupt::has_begun();
@@ -114,9 +114,9 @@ fn scene(arguments: &PackArguments) -> Result<Scene, Error> {
         }
         Scene::read(input)?
     } else {
-        // A missing file is a nearer fault than a missing spacing.
-        crate::body_format(input)?;
         let Some(spacing) = arguments.spacing else {
+            // A missing file is a nearer fault than a missing spacing.
+            crate::body_format(input)?;
             return Err(Error::Usage(format!(
                 "{} is a body; say how fine to pack it: --spacing LENGTH",
                 input.display()
@@ -151,8 +151,8 @@ fn positive(name: &str, value: f64) -> Result<(), Error> {
     )))
 }
 
-fn dry_run(scene: &Scene, is_quiet: bool) -> Result<u8, Error> {
-    let plan = plan(scene, None)?;
+fn dry_run(scene: &Scene, opened: Opened, is_quiet: bool) -> Result<u8, Error> {
+    let plan = planned_of(scene, opened, available_bytes())?;
     if !is_quiet {
         for (body, repairs) in &plan.repairs {
             warn(body, repairs);
