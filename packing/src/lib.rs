@@ -11,6 +11,7 @@ pub mod depths;
 pub mod estimate;
 pub mod forces;
 pub mod lattice;
+mod levelling;
 pub mod masses;
 pub mod methods;
 pub mod minimise;

@@ -15,7 +15,14 @@ const GRAPH: [(&str, &[&str]); 8] = [
     ("separation", &["geometry", "neighbors"]),
     (
         "cli",
-        &["kernels", "neighbors", "geometry", "packing", "separation"],
+        &[
+            "kernels",
+            "neighbors",
+            "pairs",
+            "geometry",
+            "packing",
+            "separation",
+        ],
     ),
     (
         "xtask",

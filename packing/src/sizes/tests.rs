@@ -12,8 +12,8 @@ use crate::minimise::Energy;
 use crate::quality::Fields;
 use crate::{Kind, PackingError, Particles, Problem, Resolution, Sizes, Spacing, SpacingField};
 
-/// Strewn particles whose spacings differ by up to `ratio`.
-fn strewn<const D: usize>(count: usize, ratio: f64, seed: u64) -> Particles<D> {
+/// Scattered particles whose spacings differ by up to `ratio`.
+fn scattered<const D: usize>(count: usize, ratio: f64, seed: u64) -> Particles<D> {
     let mut random = SplitMix64::new(seed);
     let mut particles = Particles::new(Sizes::uniform(1.0, 1.2));
     let mut spacings = Vec::new();
@@ -77,7 +77,7 @@ fn agree<const D: usize>(
     seed: u64,
 ) -> Result<(), TestCaseError> {
     let domain = Domain::new([0.0; D], [4.0; D]).with_periodic([periodic; D]);
-    let mut particles = strewn::<D>(count, ratio, seed);
+    let mut particles = scattered::<D>(count, ratio, seed);
     let finest = particles.sizes.finest();
     let repulsion = Repulsion::new(finest, 0.005);
     let h = particles.sizes.smallest_smoothing_length();
@@ -108,11 +108,12 @@ fn agree<const D: usize>(
     Ok(())
 }
 
+// Ratios end where a coarse particle would see another's second image, which the plain sums leave out.
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn sums_in_the_plane(ratio in 1.0..8.0_f64, periodic in any::<bool>(), seed in any::<u64>()) {
+    fn sums_in_the_plane(ratio in 1.0..5.0_f64, periodic in any::<bool>(), seed in any::<u64>()) {
         agree::<2>(180, ratio, periodic, seed)?;
     }
 
@@ -126,7 +127,7 @@ proptest! {
 #[test]
 fn equal_sizes_are_one() {
     let domain = Domain::new([0.0; 3], [4.0; 3]);
-    let mut particles = strewn::<3>(400, 1.0, 3);
+    let mut particles = scattered::<3>(400, 1.0, 3);
     let evaluate = |particles: &Particles<3>| {
         let repulsion = Repulsion::new(0.1, 0.005);
         let mut forces = Forces::new(&domain, KernelKind::Quintic, 0.12, 0.03, repulsion);
@@ -148,7 +149,7 @@ fn equal_sizes_are_one() {
 #[test]
 fn an_evaluator_follows_its_particles() {
     let domain = Domain::new([0.0; 2], [4.0; 2]);
-    let mut particles = strewn::<2>(200, 3.0, 11);
+    let mut particles = scattered::<2>(200, 3.0, 11);
     let many = particles.sizes.clone();
     let finest = many.finest();
     let new = || {
@@ -181,7 +182,7 @@ fn an_evaluator_follows_its_particles() {
 #[test]
 fn measures_have_each_its_own_h() {
     let domain = Domain::new([0.0; 2], [4.0; 2]);
-    let particles = strewn::<2>(200, 4.0, 5);
+    let particles = scattered::<2>(200, 4.0, 5);
     let fields = Fields::measure_each(
         &domain,
         &particles.position,
@@ -204,7 +205,7 @@ fn measures_have_each_its_own_h() {
 #[test]
 fn a_step_is_in_parts_of_each_spacing() {
     let domain = Domain::new([0.0; 2], [4.0; 2]);
-    let mut particles = strewn::<2>(100, 6.0, 8);
+    let mut particles = scattered::<2>(100, 6.0, 8);
     let before = particles.clone();
     let sizes = before.sizes.clone();
     let h = sizes.smallest_smoothing_length();

@@ -1,5 +1,6 @@
 //! What the papers print about packing, beside what this program gets.
 
+mod claims;
 mod interpolation;
 mod measured;
 mod page;
@@ -14,10 +15,11 @@ use std::time::Instant;
 use crate::arguments::Arguments;
 use crate::selection::Selection;
 use crate::workspace::root;
+use claims::{FIGURES, KNOWN_MISSES};
 use measured::{Measured, Store};
 use page::{Result as Ended, Verdict, figure, published};
 use row::Row;
-use rows::{KNOWN_MISSES, rows};
+use rows::rows;
 
 /// The papers that have rows.
 const PAPERS: &str = "000|001|002|003|004";
@@ -196,7 +198,7 @@ fn write_page(results: &[Ended], is_quick: bool) -> Result<(), String> {
     text.push_str(
         "\n## Not yet done\n\n| paper | figure | it shows | why not |\n|---|---|---|---|\n",
     );
-    for figure in rows::FIGURES.iter() {
+    for figure in FIGURES.iter() {
         if let Some(why) = figure.missing {
             let _ = writeln!(
                 text,

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::claims::FIGURES;
 use super::row::{Figure, Published, Row};
-use super::rows::FIGURES;
 
 /// A row, and what came of it.
 pub(crate) struct Result {

@@ -4,7 +4,7 @@
 
 use sphpack::scene::Method;
 
-use super::row::{Bar, Figure, Measure, Published, Row, Setup};
+use super::row::{Bar, Measure, Published, Row, Setup};
 
 /// h/∆s at which Negi & Ramachandran (2021), §4.1 judge a spacing: 1.0 at 0.1, rising in a line to 1.5 at 0.02.
 fn h_at(spacing: f64) -> f64 {
@@ -355,146 +355,11 @@ fn relaxation(all: &mut Vec<Row>) {
     }
 }
 
-const FLOW: Option<&str> = Some("it shows a flow, which nothing here computes yet");
-const ELSEWHERE: Option<&str> = Some("in docs/methods.md or docs/lattices.md, not yet a row here");
-
-const fn shown(paper: &'static str, figure: &'static str, claim: &'static str) -> Figure {
-    Figure {
-        paper,
-        figure,
-        claim,
-        missing: None,
-    }
-}
-
-const fn missing(
-    paper: &'static str,
-    figure: &'static str,
-    claim: &'static str,
-    why: Option<&'static str>,
-) -> Figure {
-    Figure {
-        missing: why,
-        ..shown(paper, figure, claim)
-    }
-}
-
-/// What every figure shows, in our words; those without rows say why.
-pub(crate) const FIGURES: [Figure; 25] = [
-    missing(
-        "000",
-        "fig7",
-        "which lattices stand a perturbation and an agitator",
-        ELSEWHERE,
-    ),
-    shown(
-        "000",
-        "fig8",
-        "a cylinder: a clipped lattice, triangles, and packed particles",
-    ),
-    shown("000", "fig12", "an airfoil, likewise"),
-    missing("000", "fig13", "flow past a cylinder", FLOW),
-    missing(
-        "001",
-        "fig5",
-        "the repulsion beside one of Lennard-Jones's kind",
-        Some("a curve of two formulas, no packing"),
-    ),
-    missing(
-        "001",
-        "fig7",
-        "a displaced particle among lattices, with repulsion and without",
-        ELSEWHERE,
-    ),
-    missing(
-        "001",
-        "fig8",
-        "how often particles are put back onto the surface",
-        ELSEWHERE,
-    ),
-    shown(
-        "001",
-        "fig12",
-        "density in and around a cylinder by three methods; the hybrid one varies least",
-    ),
-    shown(
-        "001",
-        "fig13",
-        "how well particles around a cylinder interpolate a function and its derivative",
-    ),
-    shown("001", "fig15", "density at a zig-zag wall by three methods"),
-    shown(
-        "001",
-        "fig16",
-        "how well particles at the zig-zag wall interpolate",
-    ),
-    shown(
-        "001",
-        "fig17",
-        "density in and around a starfish at three spacings",
-    ),
-    shown(
-        "001",
-        "table1",
-        "a smaller tolerance brings an evener airfoil, for more iterations",
-    ),
-    shown("001", "fig19", "an ellipsoid in space"),
-    shown(
-        "001",
-        "fig20",
-        "how well particles around the ellipsoid interpolate",
-    ),
-    shown("001", "fig21", "a rabbit: particles on its surface"),
-    missing("001", "fig22", "flow past a cylinder", FLOW),
-    shown(
-        "002",
-        "fig3",
-        "fluid in a tank with sloping walls comes to rest",
-    ),
-    shown("002", "fig9", "fluid in a tank with bends comes to rest"),
-    missing(
-        "002",
-        "fig11",
-        "a disc and a hull's section in a tank",
-        Some("no scene for it yet"),
-    ),
-    missing(
-        "003",
-        "fig7",
-        "a packed airfoil at 5°, its surface found by the divergence of positions",
-        Some("no scene for it yet"),
-    ),
-    missing(
-        "004",
-        "fig8",
-        "an airfoil of three elements, the gaps at its edges",
-        ELSEWHERE,
-    ),
-    shown(
-        "004",
-        "fig10",
-        "a starfish by separate and complex relaxation",
-    ),
-    shown(
-        "004",
-        "fig14",
-        "a zig-zag wall by separate and complex relaxation",
-    ),
-    missing(
-        "004",
-        "fig20",
-        "packing and energy of an airfoil at rest in flow",
-        FLOW,
-    ),
-];
-
-/// Rows that are known not to hold, by [`Row::id`], and why.
-pub(crate) const KNOWN_MISSES: [(&str, &str); 0] = [];
-
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
 
+    use super::super::claims::{FIGURES, KNOWN_MISSES};
     use super::*;
 
     #[test]
