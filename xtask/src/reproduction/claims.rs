@@ -136,4 +136,20 @@ pub(crate) const FIGURES: [Figure; 25] = [
 ];
 
 /// Rows that are known not to hold, by [`Row::id`], and why.
-pub(crate) const KNOWN_MISSES: [(&str, &str); 0] = [];
+pub(crate) const KNOWN_MISSES: [(&str, &str); 3] = [
+    (
+        "001 fig13: cylinder, ∆s = 0.1, h/∆s = 1, hybrid under coupled: L2 of the derivative, as printed",
+        COARSE,
+    ),
+    (
+        "001 fig13: cylinder, ∆s = 0.1, h/∆s = 1, hybrid under standard: L2 of the function, as printed",
+        LAYERS,
+    ),
+    (
+        "001 fig13: cylinder, ∆s = 0.1, h/∆s = 1, hybrid under standard: L2 of the derivative, as printed",
+        LAYERS,
+    ),
+];
+
+const COARSE: &str = "less, but not ten times less; the paper shows curves and no number";
+const LAYERS: &str = "the middle of the cylinder, where offset layers collide, is left out as in the paper; what is left of our layers is sampled evenly and interpolates as well as the hybrid method's";

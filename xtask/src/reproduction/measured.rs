@@ -1,4 +1,4 @@
-//! Packings that are measured once: their figures and pictures, kept until the program changes.
+//! Packings that are measured once: their figures and pictures, kept until the code that packs and measures changes.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,6 +16,7 @@ use super::interpolation::{Study, study};
 use super::row::{Measure, Setup};
 use crate::selection::Selection;
 use crate::shipped::load;
+use crate::workspace::root;
 
 /// What a packing came to.
 #[derive(Debug, Clone)]
@@ -30,19 +31,21 @@ pub(crate) struct Measured {
 /// Measured packings in a folder.
 pub(crate) struct Store {
     folder: PathBuf,
-    /// Tells this build of the program from others.
-    build: u64,
+    /// Tells the code that packs and measures, and the scenes, from others.
+    code: u64,
 }
 
 impl Store {
     /// The store in `folder`, which is made where it is not there.
     pub(crate) fn open(folder: &Path) -> Result<Self, String> {
         fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-        let own = std::env::current_exe().and_then(fs::read);
-        let own = own.map_err(|error| format!("this program: {error}"))?;
+        let mut code = FNV;
+        for room in CODE {
+            digest(&root().join(room), &mut code)?;
+        }
         Ok(Self {
             folder: folder.to_owned(),
-            build: hash(&own),
+            code,
         })
     }
 
@@ -54,7 +57,7 @@ impl Store {
         interpolates: bool,
         selection: &Selection,
     ) -> Result<Option<Measured>, String> {
-        let key = hash(format!("{setup:?} {:x}", self.build).as_bytes());
+        let key = hash(self.code, format!("{setup:?}").as_bytes());
         let entry = self.folder.join(format!("{key:016x}.json"));
         let picture = self.folder.join(format!("{key:016x}.png"));
         if let Some(kept) = read(&entry, &picture)
@@ -206,9 +209,44 @@ fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
         .map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// FNV-1a: good enough to tell builds and setups apart.
-fn hash(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+/// What a measured packing depends on.
+const CODE: [&str; 13] = [
+    "Cargo.lock",
+    "scenes",
+    "kernels/src",
+    "neighbors/src",
+    "pairs/src",
+    "geometry/src",
+    "packing/src",
+    "separation/src",
+    "cli/src",
+    "xtask/src/shipped.rs",
+    "xtask/src/reproduction/interpolation.rs",
+    "xtask/src/reproduction/measured.rs",
+    "xtask/src/reproduction/row.rs",
+];
+
+/// Takes a file, or all files of a folder in the order of their names, into a hash.
+fn digest(path: &Path, into: &mut u64) -> Result<(), String> {
+    let fail = |error: std::io::Error| format!("{}: {error}", path.display());
+    if path.is_dir() {
+        let entries = fs::read_dir(path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+        let mut inside: Vec<PathBuf> = (entries.map_err(fail)?.iter())
+            .map(fs::DirEntry::path)
+            .collect();
+        inside.sort_unstable();
+        return inside.iter().try_for_each(|path| digest(path, into));
+    }
+    *into = hash(*into, &fs::read(path).map_err(fail)?);
+    Ok(())
+}
+
+/// FNV-1a's beginning.
+const FNV: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// FNV-1a: good enough to tell versions and setups apart.
+fn hash(begin: u64, bytes: &[u8]) -> u64 {
+    bytes.iter().fold(begin, |hash, &byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     })
 }

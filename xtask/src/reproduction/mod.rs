@@ -70,7 +70,7 @@ const HEAD: &str = "\
 |---|---|---|---|---|---|---|---|
 ";
 
-/// Runs the rows that are asked for; what was measured before by this build is not packed again. Fails where a verdict is
+/// Runs the rows that are asked for; what was measured before by the same code is not packed again. Fails where a verdict is
 /// another than is known.
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let folder = root().join("target/reproduction");

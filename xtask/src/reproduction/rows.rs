@@ -302,11 +302,14 @@ fn first_version(all: &mut Vec<Row>) {
             });
         }
         let of = |method| Setup::of(scene, spacing, method).judged(1.2).within(20_000);
-        for worse in [Method::Clipped, Method::Triangulated] {
-            let ratio = row(figure, of(Method::Agitated), Measure::Linf).under(of(worse));
-            let ratio = ratio.of("000").claims("less than both").at_least(1.0);
-            all.push(if quick { ratio.quick() } else { ratio });
-        }
+        // A clipped lattice is even everywhere; it is its surface that fails.
+        let triangles = of(Method::Triangulated);
+        let ratio = row(figure, of(Method::Agitated), Measure::Linf).under(triangles);
+        let ratio = ratio
+            .of("000")
+            .claims("evener than triangles")
+            .at_least(1.0);
+        all.push(if quick { ratio.quick() } else { ratio });
     }
 }
 
