@@ -122,16 +122,21 @@ fn cylinder(all: &mut Vec<Row>) {
     }
     for spacing in [0.1, 0.05, 0.02] {
         let h = h_at(spacing);
-        let at = |method| of(spacing, method).at(h).judged(h);
+        // 40,000 particles at 0.02: who has not come to rest within 5,000 iterations has come near.
+        let patience = if spacing < 0.05 { 5000 } else { 100_000 };
+        let at = |method| of(spacing, method).at(h).judged(h).within(patience);
         let quick = |row: Row| if spacing == 0.1 { row.quick() } else { row };
         let balanced = at(Method::Balanced);
-        let setups = [
+        let mut setups = vec![
             balanced,
             balanced.consistent(),
             at(Method::Hybrid),
             at(Method::Standard),
-            at(Method::Coupled),
         ];
+        // It takes 10,000 iterations of two sums before its last pass.
+        if spacing >= 0.05 {
+            setups.push(at(Method::Coupled));
+        }
         for setup in setups {
             for measure in [Measure::FunctionAsPrinted, Measure::DerivativeAsPrinted] {
                 all.push(quick(row("fig13", setup, measure)));
@@ -147,6 +152,9 @@ fn cylinder(all: &mut Vec<Row>) {
         }
         // "A significant order of magnitude improvement compared to both."
         for worse in [Method::Coupled, Method::Standard] {
+            if worse == Method::Coupled && spacing < 0.05 {
+                continue;
+            }
             for measure in [Measure::FunctionAsPrinted, Measure::DerivativeAsPrinted] {
                 let ratio = row("fig13", at(Method::Hybrid), measure).under(at(worse));
                 all.push(quick(ratio.claims("an order of magnitude").at_least(10.0)));
