@@ -10,7 +10,6 @@ mod rows;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
-use std::time::Instant;
 
 use crate::arguments::Arguments;
 use crate::selection::Selection;
@@ -18,7 +17,7 @@ use crate::workspace::root;
 use claims::{FIGURES, KNOWN_MISSES};
 use measured::{Measured, Store};
 use page::{Result as Ended, Verdict, figure, published};
-use row::Row;
+use row::{Measure, Row};
 use rows::rows;
 
 /// The papers that have rows.
@@ -90,7 +89,6 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     print!("{HEAD}");
     for (number, row) in asked.iter().enumerate() {
         eprintln!("── {} of {}: {}", number + 1, asked.len(), row.id());
-        let begin = Instant::now();
         let interpolates = (asked.iter()).any(|other| {
             other.measure.interpolates()
                 && (other.setup == row.setup || other.over == Some(row.setup))
@@ -100,7 +98,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             None => None,
             Some(over) => store.measured(over, row.measure.interpolates(), &settings.selection)?,
         };
-        let ended = judged(row, own, over, begin.elapsed().as_secs_f64());
+        let ended = judged(row, own, over);
         print!("{}", line(&ended));
         results.push(ended);
     }
@@ -123,13 +121,17 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     }
 }
 
-fn judged(row: &Row, own: Option<Measured>, over: Option<Measured>, seconds: f64) -> Ended {
+fn judged(row: &Row, own: Option<Measured>, over: Option<Measured>) -> Ended {
     let value = |measured: &Measured| measured.figures.get(&row.measure).copied();
     let ours = match (&own, &row.over, &over) {
         (Some(own), None, _) => value(own),
         (Some(own), Some(_), Some(over)) => value(over).and_then(|over| Some(over / value(own)?)),
         _ => None,
     };
+    let seconds = own
+        .as_ref()
+        .and_then(|own| own.figures.get(&Measure::Seconds));
+    let seconds = seconds.copied().unwrap_or(0.0);
     let is_known = KNOWN_MISSES.iter().any(|(id, _)| *id == row.id());
     let is_at_rest = own.as_ref().is_some_and(|own| own.is_at_rest) || row.over.is_some();
     let verdict = match ours.map(|ours| row.holds(ours).map(|holds| holds && is_at_rest)) {
@@ -178,8 +180,8 @@ fn write_page(results: &[Ended], is_quick: bool) -> Result<(), String> {
          Papers go by their numbers in [papers.md](papers.md). Defaults, no tuning per shape{}. Regenerate with\n\
          `cargo xtask reproduce-paper --data DIR --write`, where DIR holds `bunny.stl`; pictures and a page of all are then in\n\
          `target/reproduction/index.html`. Published numbers are from the papers' texts and tables. A row *holds* where ours is within its bar,\n\
-         rows *beside* are not judged; a ratio is the named method's number over the first one's. Times are wall-clock seconds and\n\
-         depend on the machine; a packing that several rows share counts in the first.\n\n{HEAD}",
+         rows *beside* are not judged; a ratio is the named method's number over the first one's. Times are wall-clock seconds of the\n\
+         packing and depend on the machine.\n\n{HEAD}",
         if is_quick {
             " (the quick rows only)"
         } else {

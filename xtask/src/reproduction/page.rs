@@ -126,6 +126,9 @@ fn summary(result: &Result) -> Value {
     })
 }
 
+/// Pictures of a figure, at most: each takes about half a megabyte of the page.
+const PICTURES: usize = 3;
+
 const HEAD: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Packing, published and ours</title>\n<style>\
 body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}\
 table{border-collapse:collapse;margin:.7em 0}th,td{padding:.2em .7em;border-bottom:1px solid #ddd;text-align:left;font-size:14px}\
@@ -195,7 +198,7 @@ fn section(out: &mut String, figure: &Figure, own: &[&Result]) -> std::result::R
         let Some(picture) = &result.picture else {
             continue;
         };
-        if seen.contains(&picture) {
+        if seen.contains(&picture) || seen.len() == PICTURES {
             continue;
         }
         seen.push(picture);
