@@ -135,7 +135,7 @@ pub(crate) const FIGURES: [Figure; 25] = [
     ),
 ];
 
-/// Rows that are known not to hold, by [`Row::id`], and why.
+/// Rows that are known not to hold, by `Row::id`, and why.
 pub(crate) const KNOWN_MISSES: [(&str, &str); 10] = [
     (
         "001 fig13: cylinder, ∆s = 0.1, h/∆s = 1, hybrid under coupled: L2 of the derivative, as printed",
