@@ -164,7 +164,7 @@ fn line(ended: &Ended) -> String {
         row.paper,
         row.figure,
         row.setup.words(),
-        row.measure.name(),
+        row.measure.name().replace('|', "\\|"),
         published(row),
         ended.ours.map_or_else(|| "–".to_owned(), figure),
         ended.verdict.name(),
