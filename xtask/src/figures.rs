@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use sphpack::scene::Method;
-use sphpack::{Options, Outcome, Packing, run as pack};
+use sphpack::{Options, Packing, run as pack};
 use sphpack_kernels::KernelKind;
-use sphpack_packing::{Kind, Silent};
+use sphpack_packing::{Kind, Packed, Silent};
 
 use crate::selection::Selection;
 use crate::shipped::load;
@@ -42,6 +42,10 @@ pub(crate) fn variation(selection: &Selection) -> Result<String, String> {
         scene.quality.h_over_spacing = Some(1.0);
         let outcome =
             pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
+        let near = match &outcome.packing {
+            Packing::Plane(solution) => variation_near(&solution.packed, &solution.fields.gamma),
+            Packing::Space(solution) => variation_near(&solution.packed, &solution.fields.gamma),
+        };
         let mut line = String::new();
         // Writing to a string cannot fail.
         let _ = writeln!(
@@ -49,7 +53,7 @@ pub(crate) fn variation(selection: &Selection) -> Result<String, String> {
             "| {name} | {spacing} | {} | {printed} % | {:.2} % | {:.2} % |",
             method.name(),
             100.0 * outcome.report.density.total_variation,
-            100.0 * near_variation(&outcome),
+            100.0 * near,
         );
         print!("{line}");
         table.push_str(&line);
@@ -58,19 +62,15 @@ pub(crate) fn variation(selection: &Selection) -> Result<String, String> {
 }
 
 /// max Γ − min Γ over the particles outside the bodies or within ∆s of their surfaces.
-fn near_variation(outcome: &Outcome) -> f64 {
-    let Packing::Plane(solution) = &outcome.packing else {
-        return f64::NAN;
-    };
-    let packed = &solution.packed;
+pub(crate) fn variation_near<const D: usize>(packed: &Packed<D>, gamma: &[f64]) -> f64 {
+    let particles = &packed.particles;
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-    for i in 0..packed.particles.len() {
-        let p = packed.particles.position[i];
-        let is_deep = (packed.surfaces.iter())
-            .any(|surface| surface.surface.closest(p).distance < -0.51 * packed.spacing);
-        if packed.particles.kind[i] != Kind::Frozen && !is_deep {
-            least = least.min(solution.fields.gamma[i]);
-            most = most.max(solution.fields.gamma[i]);
+    for (i, &gamma) in gamma.iter().enumerate() {
+        let is_deep = (packed.surfaces.iter()).any(|surface| {
+            surface.surface.closest(particles.position[i]).distance < -0.51 * packed.spacing
+        });
+        if particles.kind[i] != Kind::Frozen && !is_deep {
+            (least, most) = (least.min(gamma), most.max(gamma));
         }
     }
     most - least

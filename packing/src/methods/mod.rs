@@ -51,20 +51,20 @@ impl<const D: usize> Problem<D> {
     }
 }
 
-/// Compiles methods for the plane and for space. Each has `INFO`, `check_in` and `pack_in`.
+/// Compiles methods for the plane and for space. Each has `INFO` and `pack_in`, and says which function checks a problem.
 macro_rules! in_plane_and_space {
-    ($($method:ident)*) => {
-        $(in_plane_and_space!($method, 2);
-        in_plane_and_space!($method, 3);)*
+    ($($method:ident: $check:expr;)*) => {
+        $(in_plane_and_space!($method, $check, 2);
+        in_plane_and_space!($method, $check, 3);)*
     };
-    ($method:ident, $dimension:literal) => {
+    ($method:ident, $check:expr, $dimension:literal) => {
         impl Method<$dimension> for $method {
             fn info(&self) -> &'static MethodInfo {
                 &Self::INFO
             }
 
             fn check(&self, problem: &Problem<$dimension>) -> Result<(), PackingError> {
-                self.check_in(problem)
+                $check(&Self::INFO, problem)
             }
 
             fn pack(
@@ -78,9 +78,20 @@ macro_rules! in_plane_and_space {
     };
 }
 
-in_plane_and_space! { Balanced }
+in_plane_and_space! {
+    Balanced: |_, problem| Balanced::check_in(problem);
+}
 
 #[cfg(feature = "published")]
 in_plane_and_space! {
-    Agitated Clipped Complex Coupled Hybrid Ppa Relaxation Standard Triangulated
+    Agitated: MethodInfo::check;
+    Clipped: MethodInfo::check;
+    Complex: MethodInfo::check;
+    Coupled: MethodInfo::check;
+    Hybrid: MethodInfo::check;
+    // Fluid goes to the true surfaces: none is moved inward.
+    Ppa: |_, problem: &Problem<_>| problem.check();
+    Relaxation: MethodInfo::check;
+    Standard: MethodInfo::check;
+    Triangulated: MethodInfo::check;
 }

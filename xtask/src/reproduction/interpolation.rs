@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sphpack_kernels::{Kernel, Quintic};
-use sphpack_neighbors::{Domain, KdTree, point};
+use sphpack_neighbors::{KdTree, point};
 use sphpack_packing::{Kind, Lattice, Packed};
 
 /// Errors of f = sin(r²) and of its derivative along x.
@@ -59,7 +59,7 @@ pub(crate) fn study<const D: usize>(packed: &Packed<D>, h_over_spacing: f64) -> 
         .map(|surface| surface.surface.bounds().size())
         .map(|size| size.into_iter().fold(0.0, f64::max))
         .fold(0.0, f64::max);
-    let is_asked = |p: &[f64; D]| point::norm(*p) > MIDDLE * edge && is_seen(&domain, *p);
+    let is_asked = |p: &[f64; D]| point::norm(*p) > MIDDLE * edge && domain.bounds.contains(*p);
     let points: Vec<[f64; D]> = sites[..inner].iter().copied().filter(is_asked).collect();
     let printed = rms(&points, |p| {
         let (own, reference) = (set.at(&kernel, p), regular.at(&kernel, p));
@@ -67,7 +67,7 @@ pub(crate) fn study<const D: usize>(packed: &Packed<D>, h_over_spacing: f64) -> 
     });
     let moved: Vec<[f64; D]> = (sites[..inner].iter())
         .map(|p| std::array::from_fn(|k| p[k] + MOVED[k] * spacing))
-        .filter(|p| domain.bounds.contains(*p) && is_asked(p))
+        .filter(is_asked)
         .collect();
     let against_itself = |set: &Set<'_, D>, points: &[[f64; D]]| {
         rms(points, |p| {
@@ -102,11 +102,6 @@ pub(crate) fn study<const D: usize>(packed: &Packed<D>, h_over_spacing: f64) -> 
         },
         at_particles: against_itself(&set, &at),
     }
-}
-
-/// Whether a place is in the box.
-fn is_seen<const D: usize>(domain: &Domain<D>, p: [f64; D]) -> bool {
-    domain.bounds.contains(p)
 }
 
 /// f = sin(r²) and ∂f/∂x.
@@ -157,6 +152,7 @@ fn rms<const D: usize>(points: &[[f64; D]], error: impl Fn([f64; D]) -> [f64; 2]
 
 #[cfg(test)]
 mod tests {
+    use sphpack_neighbors::Domain;
     use sphpack_packing::{Balanced, Problem};
 
     use super::*;

@@ -10,10 +10,11 @@ use sphpack::picture::{PictureFormat, Subject, draw};
 use sphpack::{Options, Outcome, Packing, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::point;
-use sphpack_packing::{Kind, Packed, Silent};
+use sphpack_packing::Silent;
 
 use super::interpolation::{Study, study};
 use super::row::{Measure, Setup};
+use crate::figures::variation_near;
 use crate::selection::Selection;
 use crate::shipped::load;
 use crate::workspace::root;
@@ -150,21 +151,6 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
     ])
 }
 
-/// max Γ − min Γ of the particles outside the bodies or within ∆s of their surfaces.
-fn variation_near<const D: usize>(packed: &Packed<D>, gamma: &[f64]) -> f64 {
-    let particles = &packed.particles;
-    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-    for (i, &gamma) in gamma.iter().enumerate() {
-        let deep = |surface: &sphpack_packing::ParticleSurface<D>| {
-            surface.surface.closest(particles.position[i]).distance < -0.51 * packed.spacing
-        };
-        if particles.kind[i] != Kind::Frozen && !packed.surfaces.iter().any(deep) {
-            (least, most) = (least.min(gamma), most.max(gamma));
-        }
-    }
-    most - least
-}
-
 fn interpolated(outcome: &Outcome, h_over_spacing: f64) -> Vec<(Measure, f64)> {
     let Study {
         printed,
@@ -210,7 +196,7 @@ fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
 }
 
 /// What a measured packing depends on.
-const CODE: [&str; 13] = [
+const CODE: [&str; 14] = [
     "Cargo.lock",
     "scenes",
     "kernels/src",
@@ -220,6 +206,7 @@ const CODE: [&str; 13] = [
     "packing/src",
     "separation/src",
     "cli/src",
+    "xtask/src/figures.rs",
     "xtask/src/shipped.rs",
     "xtask/src/reproduction/interpolation.rs",
     "xtask/src/reproduction/measured.rs",

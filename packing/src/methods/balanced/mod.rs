@@ -88,10 +88,7 @@ impl Balanced {
     };
 
     /// [`Method::check`](crate::Method::check), for any dimension.
-    pub(crate) fn check_in<const D: usize>(
-        &self,
-        problem: &Problem<D>,
-    ) -> Result<(), PackingError> {
+    pub(crate) fn check_in<const D: usize>(problem: &Problem<D>) -> Result<(), PackingError> {
         problem.check()?;
         for body in &problem.bodies {
             if inset(problem, body)?.is_none() && !is_usual(body) {
@@ -116,7 +113,7 @@ impl Balanced {
     ) -> Result<Packed<D>, PackingError> {
         let settling = &self.settling;
         log.begin(&Self::INFO, settling.tolerance(), settling.max_evaluations);
-        self.check_in(problem)?;
+        Self::check_in(problem)?;
         log.enter(Stage::Geometry);
         let geometry = Instant::now();
         let whole = problem;

@@ -26,14 +26,6 @@ impl Clipped {
         ..MethodInfo::USUAL
     };
 
-    /// [`Method::check`](crate::Method::check), for any dimension.
-    pub(crate) fn check_in<const D: usize>(
-        &self,
-        problem: &Problem<D>,
-    ) -> Result<(), PackingError> {
-        Self::INFO.check(problem)
-    }
-
     /// Fills the box. One evaluation, to measure.
     ///
     /// # Errors

@@ -89,14 +89,6 @@ impl Coupled {
         ..MethodInfo::USUAL
     };
 
-    /// [`Method::check`](crate::Method::check), for any dimension.
-    pub(crate) fn check_in<const D: usize>(
-        &self,
-        problem: &Problem<D>,
-    ) -> Result<(), PackingError> {
-        Self::INFO.check(problem)
-    }
-
     /// Packs the problem.
     ///
     /// # Errors

@@ -101,14 +101,6 @@ impl Ppa {
         ..MethodInfo::USUAL
     };
 
-    /// [`Method::check`](crate::Method::check), for any dimension. The fluid goes to the true surfaces: none is moved.
-    pub(crate) fn check_in<const D: usize>(
-        &self,
-        problem: &Problem<D>,
-    ) -> Result<(), PackingError> {
-        problem.check()
-    }
-
     /// Packs the problem.
     ///
     /// # Errors

@@ -67,14 +67,6 @@ impl Standard {
         ..MethodInfo::USUAL
     };
 
-    /// [`Method::check`](crate::Method::check), for any dimension.
-    pub(crate) fn check_in<const D: usize>(
-        &self,
-        problem: &Problem<D>,
-    ) -> Result<(), PackingError> {
-        Self::INFO.check(problem)
-    }
-
     /// Packs the problem.
     ///
     /// # Errors
