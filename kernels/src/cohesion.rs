@@ -45,6 +45,21 @@ impl<const D: usize> Profile<D> for CohesionProfile {
         }
         (value * r.constant(32.0 / PI), slope)
     }
+
+    // Of u³s³: 3 u²s² (u − s), and as much again where s < ½.
+    #[inline(always)]
+    fn curvature<N: Number, const PIECE: usize>(r: N, inverse: N) -> N {
+        let u = below(1.0, r, inverse);
+        let s = r.constant(1.0) - u;
+        let us = u * s;
+        let mut sum = us * us * (u - s) * r.constant(3.0);
+        if PIECE < 1 {
+            let t = below(0.5, r, inverse);
+            let us = r.constant(0.25) - t * t;
+            sum = (us * us * t).multiply_add(r.constant(6.0), sum);
+        }
+        sum
+    }
 }
 
 /// The cohesion profile of Akinci et al. (2013), in the form of Negi & Ramachandran (2021), eq. 29.

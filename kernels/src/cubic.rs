@@ -31,4 +31,13 @@ impl<const D: usize> Profile<D> for CubicProfile {
         }
         (value, slope)
     }
+
+    #[inline(always)]
+    fn curvature<N: Number, const PIECE: usize>(r: N, inverse: N) -> N {
+        let mut sum = below(2.0, r, inverse) * r.constant(-0.5);
+        if PIECE < 1 {
+            sum = below(1.0, r, inverse).multiply_add(r.constant(2.0), sum);
+        }
+        sum
+    }
 }

@@ -39,6 +39,9 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
     /// dW/dr; 0 beyond the support and at `r = 0`.
     fn slope(&self, r: f64) -> f64;
 
+    /// d²W/dr²; 0 beyond the support. At a join where it jumps, either side's.
+    fn curvature(&self, r: f64) -> f64;
+
     /// [`Kernel::value`] and [`Kernel::slope`] together.
     #[inline]
     fn value_and_slope(&self, r: f64) -> (f64, f64) {
@@ -61,16 +64,12 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync {
         difference.map(|d| slope_over_r * d)
     }
 
-    /// ∇∇W for `difference` = x_i − x_j: (W″ − W′/r) e⊗e + (W′/r) I. W″ is a central difference of the slope, good to
-    /// some nine digits of the largest away from joins between pieces.
+    /// ∇∇W for `difference` = x_i − x_j: (W″ − W′/r) e⊗e + (W′/r) I; (W′/r) I where the two coincide.
     fn hessian(&self, difference: [f64; D]) -> [[f64; D]; D] {
         let r_squared: f64 = difference.iter().map(|d| d * d).sum();
-        let r = r_squared.sqrt();
         let (_, over_r) = self.value_and_slope_over_r(r_squared);
-        let step = 1e-5 * self.smoothing_length();
-        let along = if r > step {
-            let second = (self.slope(r + step) - self.slope(r - step)) / (2.0 * step);
-            (second - over_r) / r_squared
+        let along = if r_squared > 0.0 {
+            (self.curvature(r_squared.sqrt()) - over_r) / r_squared
         } else {
             0.0
         };
@@ -98,6 +97,9 @@ pub trait Profile<const D: usize>: Copy + Debug + Default + Send + Sync {
     /// w(q) and w'(q)/[`Profile::SLOPE`] for q = r · `inverse` with `q ≥ STARTS[PIECE]`; zero for
     /// q ≥ [`Profile::SUPPORT`]. `inverse` is 1/h, which may differ from number to number.
     fn value_and_slope<N: Number, const PIECE: usize>(r: N, inverse: N) -> (N, N);
+
+    /// w″(q)/[`Profile::SLOPE`], otherwise as [`Profile::value_and_slope`].
+    fn curvature<N: Number, const PIECE: usize>(r: N, inverse: N) -> N;
 }
 
 /// How many pieces a profile may have.
@@ -157,6 +159,11 @@ impl<P: Profile<D>, const D: usize> Kernel<D> for Scaled<P, D> {
     #[inline(always)]
     fn slope(&self, r: f64) -> f64 {
         self.value_and_slope_over_r(r * r).1 * r
+    }
+
+    #[inline(always)]
+    fn curvature(&self, r: f64) -> f64 {
+        self.slope_scale * P::curvature::<f64, 0>(r, self.inverse)
     }
 
     #[inline(always)]

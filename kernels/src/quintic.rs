@@ -44,4 +44,20 @@ impl<const D: usize> Profile<D> for QuinticProfile {
         }
         (value, slope)
     }
+
+    // −4 Σ c_k (k−q)³.
+    #[inline(always)]
+    fn curvature<N: Number, const PIECE: usize>(r: N, inverse: N) -> N {
+        let a = below(3.0, r, inverse);
+        let mut sum = a * a * a * r.constant(-4.0);
+        if PIECE < 2 {
+            let b = below(2.0, r, inverse);
+            sum = (b * b * b).multiply_add(r.constant(24.0), sum);
+        }
+        if PIECE < 1 {
+            let c = below(1.0, r, inverse);
+            sum = (c * c * c).multiply_add(r.constant(-60.0), sum);
+        }
+        sum
+    }
 }

@@ -112,6 +112,14 @@ impl<const D: usize> WithKernel<D> for Properties {
             }
         }
         prop_assert!(w.hessian([0.0; D])[0][0] <= 0.0);
+        // curvature = finite difference of the slope, there too; nothing beyond the support.
+        if r > step {
+            let difference = (w.slope(r + step) - w.slope(r - step)) / (2.0 * step);
+            let scale = w.value_at_origin() / (h * h);
+            let off = (difference - w.curvature(r)).abs();
+            prop_assert!(!far_from_joins || off < 1e-7 * scale, "curvature at {r}");
+        }
+        prop_assert_eq!(w.curvature(end + step), 0.0);
 
         // The pair form says the same as value and slope.
         let (value, slope_over_r) = w.value_and_slope_over_r(r * r);

@@ -36,6 +36,22 @@ fn inward<N: Number>(r: N, inverse: N) -> (N, N, N) {
     ((q.constant(1.0) - s).positive(), s, q)
 }
 
+/// The slope of tⁿ q P(s), `power` being tⁿ⁻¹: tⁿ P − q tⁿ⁻¹ n P/2 + q tⁿ P′/2.
+#[inline(always)]
+fn slope_of<N: Number, const M: usize>(
+    (t, s, q): (N, N, N),
+    (n, power): (f64, N),
+    coefficients: [f64; M],
+) -> N {
+    let p = polynomial(s, coefficients);
+    let mut slope = s.constant(0.0);
+    for k in (1..M).rev() {
+        slope = slope.multiply_add(s, s.constant(0.5 * k as f64 * coefficients[k]));
+    }
+    let inner = (t - q * q.constant(0.5 * n)) * p;
+    power * (q * t).multiply_add(slope, inner)
+}
+
 /// c₀ + c₁ s + c₂ s² + …
 #[inline(always)]
 fn polynomial<N: Number, const M: usize>(s: N, coefficients: [f64; M]) -> N {
@@ -60,6 +76,16 @@ impl<const D: usize> Profile<D> for WendlandC2Profile {
             (t2 * t * polynomial(s, [1.0, 3.0]), t2 * q)
         } else {
             (t2 * t2 * polynomial(s, [1.0, 4.0]), t2 * t * q)
+        }
+    }
+
+    #[inline(always)]
+    fn curvature<N: Number, const PIECE: usize>(r: N, inverse: N) -> N {
+        let all @ (t, ..) = inward(r, inverse);
+        if D == 1 {
+            slope_of(all, (2.0, t), [1.0])
+        } else {
+            slope_of(all, (3.0, t * t), [1.0])
         }
     }
 }
@@ -87,6 +113,17 @@ impl<const D: usize> Profile<D> for WendlandC4Profile {
             )
         }
     }
+
+    #[inline(always)]
+    fn curvature<N: Number, const PIECE: usize>(r: N, inverse: N) -> N {
+        let all @ (t, ..) = inward(r, inverse);
+        let t2 = t * t;
+        if D == 1 {
+            slope_of(all, (4.0, t2 * t), [1.0, 4.0])
+        } else {
+            slope_of(all, (5.0, t2 * t2), [1.0, 5.0])
+        }
+    }
 }
 
 impl<const D: usize> Profile<D> for WendlandC6Profile {
@@ -110,6 +147,18 @@ impl<const D: usize> Profile<D> for WendlandC6Profile {
                 t4 * t4 * polynomial(s, [1.0, 8.0, 25.0, 32.0]),
                 t4 * t2 * t * q * polynomial(s, [1.0, 7.0, 16.0]),
             )
+        }
+    }
+
+    #[inline(always)]
+    fn curvature<N: Number, const PIECE: usize>(r: N, inverse: N) -> N {
+        let all @ (t, ..) = inward(r, inverse);
+        let t2 = t * t;
+        let t4 = t2 * t2;
+        if D == 1 {
+            slope_of(all, (6.0, t4 * t), [1.0, 6.0, 52.5 / 4.5])
+        } else {
+            slope_of(all, (7.0, t4 * t2), [1.0, 7.0, 16.0])
         }
     }
 }

@@ -46,6 +46,9 @@ pub struct Group<'a, S: Simd, const D: usize> {
     pub theirs: Values<S>,
     /// W(r, (h_i + h_j)/2), where the term asks for it ([`crate::Term::MEAN`]); else as [`Group::own`].
     pub mean: Values<S>,
+    /// d²W/dr² = this · [`Scale::over_r`] for W(r, h_i), where the term asks for it ([`crate::Term::CURVATURE`]); else as
+    /// [`Values::slope`].
+    pub curvature: Several<S>,
     /// Whether the sources are targets, or images of targets.
     pub are_targets: bool,
     /// Whether they are in the list's first shell: what acts over short distances has no others.
@@ -136,6 +139,12 @@ impl<S: Simd> Targets<'_, S> {
     pub fn weight(&self) -> f64x8<S> {
         let slots = &self.gathered.slots;
         self.load(|slot| slots[slot][3])
+    }
+
+    /// How many fields there are.
+    #[inline(always)]
+    pub fn fields(&self) -> usize {
+        self.gathered.stride
     }
 
     /// The targets' field of this number ([`crate::Fields::with_more`]).

@@ -18,5 +18,7 @@ pub use group::{Group, Scale, Targets, Values};
 pub use lanes::Several;
 pub use packing_sums::{PackingSum, PackingSums, PackingTerms, Shape};
 pub use term::Term;
-pub use terms::{Density, DensitySum, Gradient, Repulsion, RepulsionSum, TargetGradient};
+pub use terms::{
+    Density, DensitySum, Gradient, Repulsion, RepulsionSum, TargetGradient, Variation, VariationSum,
+};
 pub use walk::{shells, walk};

@@ -6,7 +6,7 @@ use sphpack_neighbors::{Blocks, SHELLS};
 
 use crate::gathered::Gathered;
 use crate::term::Term;
-use crate::terms::{Density, Gradient, Repulsion, TargetGradient};
+use crate::terms::{Density, Gradient, Repulsion, TargetGradient, Variation, VariationSum};
 use crate::walk::{shells, walk};
 
 /// What acts between pairs, chosen at run time.
@@ -95,6 +95,20 @@ impl PackingSums<'_> {
             gradient_in_space(self, out);
         }
     }
+
+    /// [`Variation`] of every target. Otherwise as [`PackingSums::sum`].
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are targets, or there are not `D + 1` fields.
+    pub fn vary<const D: usize>(self, out: &mut [VariationSum]) {
+        const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
+        assert_eq!(self.gathered.stride, D + 1, "a number and a vector");
+        if D == 2 {
+            vary_in_plane(self, out);
+        } else {
+            vary_in_space(self, out);
+        }
+    }
 }
 
 fn sum_in_plane(of: PackingSums<'_>, terms: &PackingTerms, out: &mut [PackingSum]) {
@@ -114,6 +128,16 @@ fn gradient_in_plane(of: PackingSums<'_>, out: &mut [[f64; 3]]) {
 
 fn gradient_in_space(of: PackingSums<'_>, out: &mut [[f64; 3]]) {
     let terms = &TargetGradient;
+    of.shape.with::<3, _>(of.length, Work { of, terms, out });
+}
+
+fn vary_in_plane(of: PackingSums<'_>, out: &mut [VariationSum]) {
+    let terms = &Variation::default();
+    of.shape.with::<2, _>(of.length, Work { of, terms, out });
+}
+
+fn vary_in_space(of: PackingSums<'_>, out: &mut [VariationSum]) {
+    let terms = &Variation::default();
     of.shape.with::<3, _>(of.length, Work { of, terms, out });
 }
 

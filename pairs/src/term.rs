@@ -19,6 +19,8 @@ pub trait Term: Clone + Sync {
     const THEIRS: bool = false;
     /// Whether [`Group::mean`] is needed.
     const MEAN: bool = false;
+    /// Whether [`Group::curvature`] is needed.
+    const CURVATURE: bool = false;
     /// Whether sources that are no targets count.
     const OTHERS: bool = true;
 
@@ -53,6 +55,7 @@ macro_rules! tuples {
 
             const THEIRS: bool = $($name::THEIRS)||+;
             const MEAN: bool = $($name::MEAN)||+;
+            const CURVATURE: bool = $($name::CURVATURE)||+;
             const OTHERS: bool = $($name::OTHERS)||+;
 
             fn in_unit(&self, unit: f64) -> Self {

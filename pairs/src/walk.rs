@@ -222,6 +222,11 @@ impl<'a, S: Simd, T: Term, const D: usize> Walk<'a, S, T, D> {
                 mean = relative(values::<S, P, PIECE, D>(r, of), self.size, of, D);
             }
         }
+        let mut curvature = own.slope;
+        if T::CURVATURE {
+            let of = Several([self.inverse; GROUP]);
+            curvature = P::curvature::<_, PIECE>(r, of) * of;
+        }
         let group = Group {
             simd,
             apart,
@@ -231,6 +236,7 @@ impl<'a, S: Simd, T: Term, const D: usize> Walk<'a, S, T, D> {
             own,
             theirs,
             mean,
+            curvature,
             are_targets,
             is_near,
             size: self.size,

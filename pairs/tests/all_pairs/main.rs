@@ -10,6 +10,7 @@ use sphpack_pairs::{
 
 mod each;
 mod repulsion;
+mod variation;
 
 /// Point sets in the unit box: random, shaken lattice, lattice, coincident.
 fn point_sets<const D: usize>() -> impl Strategy<Value = Vec<[f64; D]>> {
