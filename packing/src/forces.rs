@@ -1,5 +1,7 @@
 //! Density and forces of a particle set, evaluated again and again while it moves.
 
+mod variation;
+
 use std::io::{self, Write};
 use std::time::Instant;
 
@@ -7,7 +9,9 @@ use fearless_simd::Level;
 use rayon::prelude::*;
 use sphpack_kernels::{KernelKind, WithKernel};
 use sphpack_neighbors::{CellList, Domain};
-use sphpack_pairs::{Gathered, PackingSum, PackingSums, Repulsion, RepulsionSum, Shape};
+use sphpack_pairs::{
+    Gathered, PackingSum, PackingSums, Repulsion, RepulsionSum, Shape, VariationSum,
+};
 
 pub use crate::levelling::Levelling;
 use crate::particles::Particles;
@@ -48,6 +52,8 @@ pub struct Forces<const D: usize> {
     excess: Vec<f64>,
     /// Σ_j V_j (Γ_j − Γ₀) ∇_iW_ij of every target slot.
     excess_gradient: Vec<[f64; 3]>,
+    /// Of every target slot, by [`Forces::vary`].
+    variation: Vec<VariationSum>,
     evaluations: usize,
     neighbor_seconds: f64,
     force_seconds: f64,
@@ -111,6 +117,7 @@ impl<const D: usize> Forces<D> {
             sums: Vec::new(),
             excess: Vec::new(),
             excess_gradient: Vec::new(),
+            variation: Vec::new(),
             evaluations: 0,
             neighbor_seconds: 0.0,
             force_seconds: 0.0,
@@ -365,6 +372,12 @@ impl<const D: usize> Forces<D> {
         self.evaluate(particles);
         self.evaluations -= 1;
         (self.neighbor_seconds, self.force_seconds) = spent;
+    }
+
+    /// Counts as many evaluations, and seconds, as an earlier run.
+    pub(crate) fn set_spent(&mut self, evaluations: usize, seconds: (f64, f64)) {
+        self.evaluations = evaluations;
+        (self.neighbor_seconds, self.force_seconds) = seconds;
     }
 
     /// Seconds spent on keeping neighbour lists, and on the pair loop.

@@ -9,6 +9,7 @@ pub mod closest_pair;
 pub mod confinement;
 pub mod depths;
 pub mod estimate;
+mod finish;
 pub mod forces;
 pub mod lattice;
 mod levelling;

@@ -99,6 +99,16 @@ pub enum PackingError {
         /// The greatest.
         greatest: f64,
     },
+    /// A finish is for fewer particles.
+    #[error(
+        "the finish \"calm\" is for at most {most:.0} particles here, not for {particles:.0}: its equations are solved directly; use the finish \"both\" or \"consistent\", a larger spacing or a smaller box"
+    )]
+    TooManyAtRest {
+        /// About as many as fill the box.
+        particles: f64,
+        /// The most.
+        most: f64,
+    },
     /// The spacing does not fit into the box.
     #[error(
         "the spacing {spacing} is larger than the domain, which is only {} wide; use a smaller spacing",

@@ -177,6 +177,20 @@ fn balanced_in_a_periodic_box_with_a_band() {
 }
 
 #[test]
+fn balanced_finishes() {
+    for finish in [Finish::Both, Finish::Calm] {
+        let balanced = Balanced {
+            settling: Settling {
+                finish,
+                ..Settling::default()
+            },
+            ..Balanced::default()
+        };
+        check(&|observer| balanced.pack_in(&discs(0.12), &mut RunLog::new(observer)));
+    }
+}
+
+#[test]
 fn balanced_in_space() {
     let problem = Problem::new(Domain::new([-1.0; 3], [1.0; 3]), 0.25)
         .body("ball", Ball::new([0.0; 3], 0.55).expect("a ball"));

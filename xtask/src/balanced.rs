@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use sphpack::scene::Masses;
+use sphpack::scene::{Finish, Masses};
 use sphpack::{Options, Outcome, run as pack};
-use sphpack_packing::{Kind, Silent};
+use sphpack_packing::{DensityQuality, Kind, Silent};
 
 use crate::balanced_rows::{ROWS, Row};
 use crate::dial;
@@ -57,6 +57,12 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
              are run with a tolerance that is out of reach, to see what patience brings. The prototype is a sketch of\n\
              the method that came before this implementation. Times are wall-clock seconds from scene to figures and\n\
              depend on the machine.\n\n{table}\n\
+             ## Finishes\n\n\
+             *both* makes the largest |Γ − Γ₀| and h|∇Γ| small at once, *calm* the latter alone, by the equations\n\
+             themselves; their L∞ is from Γ₀, the lattice's own, and their bars are 0.05 % and 6·10⁻⁴, and 0.2 % and\n\
+             10⁻⁶, with no pair nearer than 0.85 ∆s. An evaluation of *both* is a sum over the pairs; a step takes 82 in the plane.\n\
+             Round bodies in space stop above the bars: steps of conjugate gradients flatten out there, and a\n\
+             factor of the equations of 17,640 particles takes 40 s.\n\n\
              ## Levelling\n\n\
              An even finish ends under the pressure p = p_b (1 + κ (Γ − Γ₀)), `levelling` = κ in a scene. Moves of a\n\
              hundredth of ∆s make the density even; what they leave is a residual of the background pressure. An\n\
@@ -142,7 +148,16 @@ impl Figures {
             |f: fn(&sphpack_packing::SurfaceQuality) -> usize| report.surface.iter().map(f).sum();
         Self {
             evaluations: report.force_evaluations,
-            linf: report.density.linf,
+            linf: match report.scene.packing.finish {
+                Finish::Even | Finish::Consistent => report.density.linf,
+                // What the lattice itself is off by is not theirs.
+                Finish::Calm | Finish::Both => {
+                    let DensityQuality {
+                        min, max, lattice, ..
+                    } = report.density;
+                    (max - lattice).max(lattice - min)
+                }
+            },
             total_variation: report.density.total_variation,
             most: table.error_of_most(0.99),
             worst,

@@ -39,13 +39,15 @@ impl Row {
             (Finish::Even, false) => "even",
             (Finish::Even, true) => "even, masses corrected",
             (Finish::Consistent, _) => "consistent",
+            (Finish::Calm, _) => "calm",
+            (Finish::Both, _) => "both",
         }
     }
 
     /// No pair may be nearer, in ∆s.
     pub(crate) fn closest_bar(&self) -> f64 {
         match self.finish {
-            Finish::Even => 0.85,
+            Finish::Even | Finish::Calm | Finish::Both => 0.85,
             Finish::Consistent => 0.6,
         }
     }
@@ -96,6 +98,24 @@ const BUNNY: Row = Row {
     ..EVEN
 };
 
+const BOTH: Row = Row {
+    scene: "cylinder",
+    finish: Finish::Both,
+    evaluations: 1500,
+    linf_bar: 0.0005,
+    residual_bar: Some(6e-4),
+    ..EVEN
+};
+
+const CALM: Row = Row {
+    scene: "cylinder",
+    finish: Finish::Calm,
+    evaluations: 300,
+    linf_bar: 0.002,
+    residual_bar: Some(1e-6),
+    ..EVEN
+};
+
 const CORRECTED: Row = Row {
     corrected: true,
     evaluations: 600,
@@ -104,7 +124,7 @@ const CORRECTED: Row = Row {
 };
 
 /// Every row.
-pub(crate) const ROWS: [Row; 24] = [
+pub(crate) const ROWS: [Row; 34] = [
     Row {
         prototype: "403: 0.20 %",
         ..CYLINDER
@@ -250,5 +270,49 @@ pub(crate) const ROWS: [Row; 24] = [
         prototype: "–",
         quick: false,
         ..CORRECTED
+    },
+    BOTH,
+    Row {
+        spacing: 0.05,
+        ..BOTH
+    },
+    Row {
+        spacing: 0.025,
+        quick: false,
+        ..BOTH
+    },
+    Row {
+        scene: "square",
+        spacing: 0.05,
+        ..BOTH
+    },
+    Row {
+        scene: "starfish",
+        spacing: 0.05,
+        quick: false,
+        ..BOTH
+    },
+    Row {
+        scene: "zigzag",
+        spacing: 0.05,
+        quick: false,
+        ..BOTH
+    },
+    Row {
+        scene: "naca0015",
+        spacing: 0.02,
+        quick: false,
+        ..BOTH
+    },
+    Row {
+        scene: "sphere",
+        quick: false,
+        ..BOTH
+    },
+    CALM,
+    Row {
+        spacing: 0.05,
+        quick: false,
+        ..CALM
     },
 ];

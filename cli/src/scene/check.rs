@@ -290,6 +290,29 @@ impl Scene {
         }
         let is_hybrid = packing.method == Method::Hybrid;
         let minimises = info.minimises || (is_hybrid && packing.minimiser.is_some());
+        let of_balanced = match packing.finish {
+            Finish::Even | Finish::Consistent => None,
+            Finish::Calm => Some("calm"),
+            Finish::Both => Some("both"),
+        };
+        if let (Some(finish), true) = (of_balanced, packing.method != Method::Balanced) {
+            return fault(
+                &at("finish"),
+                format!(
+                    "finish = \"{finish}\" is for the method \"balanced\", not for \"{}\": use finish = \"even\", or method = \"balanced\"",
+                    packing.method.name()
+                ),
+            );
+        }
+        if !(0.0..=1.0).contains(&packing.balance) {
+            return fault(
+                &at("balance"),
+                format!(
+                    "packing.balance is {}; it must be between 0, for consistency alone, and 1, for evenness alone",
+                    packing.balance
+                ),
+            );
+        }
         if !minimises && packing.finish == Finish::Consistent {
             return fault(
                 &at("finish"),

@@ -64,7 +64,7 @@ macro_rules! in_plane_and_space {
             }
 
             fn check(&self, problem: &Problem<$dimension>) -> Result<(), PackingError> {
-                $check(&Self::INFO, problem)
+                $check(&Self::INFO, self, problem)
             }
 
             fn pack(
@@ -78,20 +78,30 @@ macro_rules! in_plane_and_space {
     };
 }
 
+/// The check of methods with nothing of their own to ask.
+#[cfg(feature = "published")]
+fn usual<M, const D: usize>(
+    info: &MethodInfo,
+    _: &M,
+    problem: &Problem<D>,
+) -> Result<(), PackingError> {
+    info.check(problem)
+}
+
 in_plane_and_space! {
-    Balanced: |_, problem| Balanced::check_in(problem);
+    Balanced: |_, method: &Balanced, problem| method.check_in(problem);
 }
 
 #[cfg(feature = "published")]
 in_plane_and_space! {
-    Agitated: MethodInfo::check;
-    Clipped: MethodInfo::check;
-    Complex: MethodInfo::check;
-    Coupled: MethodInfo::check;
-    Hybrid: MethodInfo::check;
+    Agitated: usual;
+    Clipped: usual;
+    Complex: usual;
+    Coupled: usual;
+    Hybrid: usual;
     // Fluid goes to the true surfaces: none is moved inward.
-    Ppa: |_, problem: &Problem<_>| problem.check();
-    Relaxation: MethodInfo::check;
-    Standard: MethodInfo::check;
-    Triangulated: MethodInfo::check;
+    Ppa: |_, _, problem: &Problem<_>| problem.check();
+    Relaxation: usual;
+    Standard: usual;
+    Triangulated: usual;
 }

@@ -31,11 +31,12 @@ mod fire;
 mod gradient_penalty;
 mod history;
 mod lbfgs;
+mod movable;
 mod settling;
 mod sides;
 #[cfg(test)]
 mod tests;
-mod vectors;
+pub(crate) mod vectors;
 mod walls;
 
 pub use damped::Damped;
@@ -45,6 +46,7 @@ pub use energy::Energy;
 pub use fire::Fire;
 pub use gradient_penalty::GradientPenalty;
 pub use lbfgs::Lbfgs;
+pub(crate) use movable::Movable;
 pub use settling::{Finish, Settling};
 
 use std::fmt;

@@ -12,8 +12,9 @@ use sphpack_pairs::Repulsion;
 
 /// How particles are left.
 ///
-/// The pressure alone would pull some pairs together wherever the lattice has a defect, so evenness and consistency
-/// cannot both be had: a repulsion that holds pairs apart is itself a residual.
+/// The pressure alone would pull some pairs together wherever the lattice has a defect, and a repulsion that holds them
+/// apart is itself a residual: by its energy evenness and consistency cannot both be had. So the method balanced makes
+/// the sums of squares of both small themselves, from an even packing on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -22,9 +23,15 @@ pub enum Finish {
     /// are the price.
     #[default]
     Even,
-    /// Free particles end where the background pressure's own forces vanish (zero-order consistency). Pairs may come
-    /// as near as 0.7 ∆s.
+    /// Free particles end where the background pressure's own forces vanish (zero-order consistency), down its energy. Pairs
+    /// may come as near as 0.7 ∆s.
     Consistent,
+    /// So do they here, but by Newton's way from an even packing, with pairs 0.86 ∆s apart: for small sets, by the method
+    /// balanced. Others take this for [`Finish::Consistent`].
+    Calm,
+    /// Density and kernel gradient sum are both made small, as [`Settling::balance`] weighs them, by the method balanced.
+    /// Others take this for [`Finish::Even`].
+    Both,
 }
 
 impl Finish {
@@ -33,6 +40,8 @@ impl Finish {
         match self {
             Self::Even => 1e-3,
             Self::Consistent => 1e-5,
+            Self::Calm => 1e-6,
+            Self::Both => 6e-4,
         }
     }
 }
@@ -59,6 +68,8 @@ pub struct Settling {
     pub levelling: f64,
     /// Its [leeway](Levelling::leeway).
     pub leeway: f64,
+    /// What the finish [`Finish::Both`] weighs more: 0 is the kernel gradient sum alone, 1 the density alone.
+    pub balance: f64,
 }
 
 impl Default for Settling {
@@ -72,6 +83,7 @@ impl Default for Settling {
             repulsion: [Repulsion::STRENGTH, 0.001],
             levelling: Self::levelling_at(1.2),
             leeway: 0.0,
+            balance: 0.5,
         }
     }
 }
@@ -117,10 +129,10 @@ impl Settling {
 
     fn last_repulsion(&self, spacing: f64) -> Repulsion {
         match self.finish {
-            Finish::Even => {
+            Finish::Even | Finish::Both => {
                 Repulsion::with_reach(spacing, self.repulsion[1], Repulsion::REACH_OVER_SPACING)
             }
-            Finish::Consistent => {
+            Finish::Consistent | Finish::Calm => {
                 Repulsion::with_reach(spacing, self.repulsion[0], CONSISTENT_REACH)
             }
         }
@@ -129,11 +141,13 @@ impl Settling {
     /// The levelling at the end, towards Γ₀ = `perfect_gamma`.
     pub(crate) fn last_levelling(&self, perfect_gamma: f64) -> Option<Levelling> {
         match self.finish {
-            Finish::Even => Levelling::new(self.levelling, perfect_gamma).map(|level| Levelling {
-                leeway: self.leeway,
-                ..level
-            }),
-            Finish::Consistent => None,
+            Finish::Even | Finish::Both => {
+                Levelling::new(self.levelling, perfect_gamma).map(|level| Levelling {
+                    leeway: self.leeway,
+                    ..level
+                })
+            }
+            Finish::Consistent | Finish::Calm => None,
         }
     }
 

@@ -7,7 +7,7 @@ use sphpack_neighbors::point;
 const BLOCK: usize = 4096;
 
 /// Σ a·b in blocks of fixed size: the same bits for any number of threads.
-pub(super) fn dot<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {
+pub(crate) fn dot<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {
     let of = |(a, b): (&[[f64; D]], &[[f64; D]])| -> f64 {
         let mut sum = 0.0;
         for (&x, &y) in a.iter().zip(b) {
@@ -27,13 +27,13 @@ pub(super) fn dot<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {
 }
 
 /// a ← s a.
-pub(super) fn scale<const D: usize>(a: &mut [[f64; D]], s: f64) {
+pub(crate) fn scale<const D: usize>(a: &mut [[f64; D]], s: f64) {
     a.par_iter_mut()
         .with_min_len(BLOCK)
         .for_each(|a| *a = point::scale(*a, s));
 }
 
 /// The largest length; NaN where one is.
-pub(super) fn longest<const D: usize>(a: &[[f64; D]]) -> f64 {
+pub(crate) fn longest<const D: usize>(a: &[[f64; D]]) -> f64 {
     crate::forces::largest(a.len(), |i| point::norm_squared(a[i])).sqrt()
 }

@@ -78,6 +78,8 @@ impl Setup {
         match (self.method, self.finish) {
             (Method::Balanced, Finish::Even) => "balanced even".to_owned(),
             (Method::Balanced, Finish::Consistent) => "balanced consistent".to_owned(),
+            (Method::Balanced, Finish::Calm) => "balanced calm".to_owned(),
+            (Method::Balanced, Finish::Both) => "balanced both".to_owned(),
             (method, _) => method.name().to_owned(),
         }
     }

@@ -13,7 +13,7 @@ use sphpack_neighbors::point;
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Band {
     /// Those within two and a half support radii of a surface; half as many again while the residual beyond asks for it. The others stay
-    /// on their lattice, and are neither integrated nor listed. For a consistent finish all: what a body does to its
+    /// on their lattice, and are neither integrated nor listed. For a calm finish all, in the end: what a body does to its
     /// surroundings falls off so slowly (10⁻³ two support radii away, 10⁻⁴ eight of them, around the cylinder at
     /// ∆s = 0.025) that nothing stays where it is to within 10⁻⁵.
     #[default]
@@ -35,7 +35,7 @@ pub(super) struct Part<const D: usize> {
     /// Their places among all.
     order: Vec<usize>,
     /// Places here of particles just beyond the band that could move.
-    rim: Vec<usize>,
+    pub(super) rim: Vec<usize>,
     /// Whether it is everything.
     pub(super) is_all: bool,
 }
@@ -44,7 +44,9 @@ impl Band {
     /// The width to begin with, scene units; infinite for everything.
     pub fn first_width<const D: usize>(self, problem: &Problem<D>, finish: Finish) -> f64 {
         match (self, finish) {
-            (Self::Auto, Finish::Even) => FIRST_WIDTH * problem.support(),
+            (Self::Auto, Finish::Even | Finish::Both | Finish::Calm) => {
+                FIRST_WIDTH * problem.support()
+            }
             _ => f64::INFINITY,
         }
     }
