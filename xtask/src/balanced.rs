@@ -212,7 +212,7 @@ impl Figures {
             (count as f64 - target as f64).abs() <= allowed,
             "surface count",
         );
-        need(self.cv <= 0.04, "spacing CV");
+        need(self.cv <= row.cv_bar(), "spacing CV");
         need(self.closest >= row.closest_bar(), "closest pair");
         need(
             self.spread.is_none_or(|spread| spread <= 0.02 + 1e-9),

@@ -44,6 +44,16 @@ impl Row {
         }
     }
 
+    /// How uneven the distances on the surface may be: "both" and "calm" have surface particles slide for what is beside
+    /// them.
+    pub(crate) fn cv_bar(&self) -> f64 {
+        match self.finish {
+            Finish::Even | Finish::Consistent => 0.04,
+            Finish::Both => 0.05,
+            Finish::Calm => 0.08,
+        }
+    }
+
     /// No pair may be nearer, in ∆s.
     pub(crate) fn closest_bar(&self) -> f64 {
         match self.finish {

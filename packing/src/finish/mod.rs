@@ -42,7 +42,7 @@ pub(crate) struct Goal {
 /// Where a place of rest is looked for it is less, as a wall that many pairs lie at makes that way long (cylinder, ∆s = 0.05: 45
 /// steps at 0.88, 22 at 0.86).
 const LEAST_OVER_SPACING: f64 = 0.88;
-const LEAST_AT_REST: f64 = 0.87;
+const LEAST_AT_REST: f64 = 0.86;
 const STIFFNESS: f64 = 0.01;
 
 /// How much more the largest residual counts than the smallest.

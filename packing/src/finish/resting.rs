@@ -36,7 +36,7 @@ const CORRECTIONS: usize = 3;
 
 /// What evenness, pairs apart and short steps count: over Γ², (r/d)² and (p/∆s)².
 const SHORT: f64 = 1e-3;
-const APART: f64 = 3.0;
+const APART: f64 = 1.0;
 
 /// No step brings a pair nearer than this, in ∆s. Where the lattice rests nowhere (h/∆s = 1.5) pairs fall into one another
 /// otherwise.
