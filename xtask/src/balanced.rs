@@ -61,8 +61,8 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
              *both* makes the largest |Γ − Γ₀| and h|∇Γ| small at once, *calm* the latter alone, by the equations\n\
              themselves; their L∞ is from Γ₀, the lattice's own, and their bars are 0.05 % and 6·10⁻⁴, and 0.2 % and\n\
              10⁻⁶, with no pair nearer than 0.85 ∆s. An evaluation of *both* is a sum over the pairs; a step takes 82 in the plane.\n\
-             Round bodies in space stop above the bars: steps of conjugate gradients flatten out there, and a\n\
-             factor of the equations of 17,640 particles takes 40 s.\n\n\
+             Round bodies in space stop above the bars: steps of conjugate gradients flatten out there, and\n\
+             factors of the equations are too dear.\n\n\
              ## Levelling\n\n\
              An even finish ends under the pressure p = p_b (1 + κ (Γ − Γ₀)), `levelling` = κ in a scene. Moves of a\n\
              hundredth of ∆s make the density even; what they leave is a residual of the background pressure. An\n\

@@ -123,6 +123,7 @@ const CALM: Row = Row {
     evaluations: 300,
     linf_bar: 0.002,
     residual_bar: Some(1e-6),
+    quick: false,
     ..EVEN
 };
 
@@ -322,7 +323,6 @@ pub(crate) const ROWS: [Row; 34] = [
     CALM,
     Row {
         spacing: 0.05,
-        quick: false,
         ..CALM
     },
 ];
