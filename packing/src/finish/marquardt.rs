@@ -1,6 +1,7 @@
 //! Levenberg and Marquardt's steps, by conjugate gradients.
 
-use super::objective::{Objective, add_scaled, dot, longest};
+use super::objective::Objective;
+use crate::minimise::vectors::{add_scaled, dot, longest};
 
 /// Steps down an [`Objective`] (Levenberg 1944, Marquardt 1963): (JᵀWJ + λ) p = −∇F, solved by a few conjugate gradients
 /// without a preconditioner. A diagonal one changed nothing (cylinder, ∆s = 0.1: 280 products, L∞ 0.0476 % with,

@@ -1,7 +1,8 @@
 //! The last stage of a packing: density and kernel gradient sum themselves, not an energy of which they are the forces.
 //!
 //! An energy's places of rest are where background pressure pulls pairs together until it finds none left to pull; those of
-//! the sum of squares [`Objective`] keep them apart, and density and consistency come down together (docs/balanced.md has the figures).
+//! the sum of squares [`Objective`] keep them apart, and density and consistency come down together (docs/balanced.md has
+//! the figures).
 
 mod close_pairs;
 mod linearised;
@@ -138,10 +139,8 @@ pub(crate) fn run<const D: usize>(
             continue;
         }
         course.objective.emphasise(EMPHASIS);
-        if goal.level.is_finite() {
-            let behind = (level / goal.level) / (calm / goal.calm);
-            course.objective.weights[0] *= behind.clamp(1.0 / SHIFT, SHIFT);
-        }
+        let behind = (level / goal.level) / (calm / goal.calm);
+        course.objective.weights[0] *= behind.clamp(1.0 / SHIFT, SHIFT);
         let before = course.objective.value();
         let (went_down, sums) = (course.marquardt).step(&mut course.objective, problem.spacing());
         course.steps += 1;

@@ -6,7 +6,7 @@ use sphpack_pairs::Repulsion;
 
 use super::close_pairs::{Approaching, ClosePairs};
 use crate::forces::{Forces, largest};
-use crate::minimise::{Movable, vectors};
+use crate::minimise::Movable;
 use crate::particles::Kind;
 use crate::problem::Problem;
 
@@ -99,7 +99,7 @@ impl<'a, const D: usize> Objective<'a, D> {
     /// Γ − Γ₀ and h ∇Γ of a particle, zero where they do not count.
     fn residual(&self, i: usize) -> (f64, [f64; D]) {
         let level = if self.is_level[i] {
-            self.forces.gamma(i) - self.perfect_gamma
+            self.excess(i)
         } else {
             0.0
         };
@@ -269,13 +269,3 @@ impl<'a, const D: usize> Objective<'a, D> {
         .collect_into_vec(out);
     }
 }
-
-/// a ← a + s b.
-pub(super) fn add_scaled<const D: usize>(a: &mut [[f64; D]], s: f64, b: &[[f64; D]]) {
-    a.par_iter_mut()
-        .zip(b)
-        .with_min_len(4096)
-        .for_each(|(a, &b)| *a = point::add_scaled(*a, s, b));
-}
-
-pub(super) use vectors::{dot, longest};

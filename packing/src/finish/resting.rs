@@ -4,8 +4,8 @@ use faer::{Mat, MatRef};
 use sphpack_neighbors::point;
 
 use super::linearised::{Factor, Links, solve_definite};
-use super::objective::{Objective, add_scaled, longest};
-use crate::minimise::vectors;
+use super::objective::Objective;
+use crate::minimise::vectors::{self, add_scaled, longest};
 use crate::particles::Kind;
 
 /// Newton's steps to ∇Γ = 0 of all free particles that move, along a path on which ∇Γ shrinks evenly everywhere
@@ -22,7 +22,7 @@ pub(super) struct Resting {
     pub(super) farthest: f64,
     /// The number of each particle in the equations.
     row: Vec<Option<u32>>,
-    /// The free particles, by that number, and the mobile ones' numbers of these.
+    /// The free particles, by that number.
     free: Vec<u32>,
     /// Surface particles that slide.
     sliding: Vec<u32>,
@@ -45,9 +45,6 @@ const CLOSEST: f64 = 0.78;
 /// How often the pairs that come too close are looked for.
 const ROUNDS: usize = 3;
 
-/// Entries of the dense matrix of what slides, at most: 400 MB.
-const MOST_ENTRIES: usize = 50_000_000;
-
 /// What came of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rested {
@@ -68,11 +65,6 @@ impl Resting {
         for (number, &i) in (0_u32..).zip(&free) {
             row[i as usize] = Some(number);
         }
-        let sliding = if free.len() * D * sliding.len() * (D - 1) <= MOST_ENTRIES {
-            sliding
-        } else {
-            Vec::new()
-        };
         Self {
             farthest: FARTHEST,
             row,
@@ -99,9 +91,10 @@ impl Resting {
             return (Rested::Stuck, sums);
         };
         let gradient = newton.gradients(self, objective);
+        let plain = newton.plain(&gradient);
         let (Some(onward), Some(mut aside)) = (
-            newton.chosen_step(self, objective, &gradient, spacing, false),
-            newton.chosen_step(self, objective, &gradient, spacing, true),
+            newton.chosen_step(self, objective, &plain, spacing, false),
+            newton.chosen_step(self, objective, &plain, spacing, true),
         ) else {
             return (Rested::Stuck, sums);
         };
@@ -303,32 +296,31 @@ impl<const D: usize> Newton<D> {
         Some(self.whole(of, objective, &plain, Some(&slid)))
     }
 
-    /// The one of all steps p with J p = −`gradient` that is short and leaves pairs apart; and, where that is asked for, the
-    /// density even.
+    /// The one of all steps that change ∇Γ as the [plain](Newton::plain) one does that is short and leaves pairs apart; and,
+    /// where that is asked for, the density even.
     fn chosen_step(
         &self,
         of: &Resting,
         objective: &Objective<'_, D>,
-        gradient: &[[f64; D]],
+        plain: &Mat<f64>,
         spacing: f64,
         is_even: bool,
     ) -> Option<Vec<[f64; D]>> {
-        let plain = self.plain(gradient);
         if self.slides.is_empty() {
-            return Some(self.whole(of, objective, &plain, None));
+            return Some(self.whole(of, objective, plain, None));
         }
         let short = SHORT / (spacing * spacing);
         let mut square = self.square.clone();
         square *= faer::Scale(short);
-        let mut right = self.follow.transpose() * &plain;
+        let mut right = self.follow.transpose() * plain;
         right *= faer::Scale(-short);
-        let alone = self.whole(of, objective, &plain, None);
+        let alone = self.whole(of, objective, plain, None);
         if is_even {
             self.add_evenness(of, objective, &alone, (&mut square, &mut right));
         }
         let mut slid: Option<Mat<f64>> = None;
         for _ in 0..ROUNDS {
-            let step = self.whole(of, objective, &plain, slid.as_ref());
+            let step = self.whole(of, objective, plain, slid.as_ref());
             let (mut all, mut side) = (square.clone(), right.clone());
             let (approaching, least) = objective.approaching(&step);
             for pair in approaching {
@@ -361,7 +353,7 @@ impl<const D: usize> Newton<D> {
             }
             slid = Some(solve_definite(&all, &side)?);
         }
-        Some(self.whole(of, objective, &plain, slid.as_ref()))
+        Some(self.whole(of, objective, plain, slid.as_ref()))
     }
 
     /// Adds to the normal equations of what slides by how much each density changes with it, beside what free particles

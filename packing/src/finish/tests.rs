@@ -3,8 +3,8 @@
 use sphpack_geometry::Ball;
 use sphpack_neighbors::{Domain, point};
 
-use super::objective::{Objective, dot};
-use crate::minimise::Movable;
+use super::objective::Objective;
+use crate::minimise::{Movable, vectors::dot};
 use crate::particles::Kind;
 use crate::{
     Balanced, Finish, Packed, PackingError, Particles, Problem, RunLog, Settling, Silent,

@@ -26,6 +26,14 @@ pub(crate) fn dot<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {
     partial.iter().sum()
 }
 
+/// a ← a + s b.
+pub(crate) fn add_scaled<const D: usize>(a: &mut [[f64; D]], s: f64, b: &[[f64; D]]) {
+    a.par_iter_mut()
+        .zip(b)
+        .with_min_len(BLOCK)
+        .for_each(|(a, &b)| *a = point::add_scaled(*a, s, b));
+}
+
 /// a ← s a.
 pub(crate) fn scale<const D: usize>(a: &mut [[f64; D]], s: f64) {
     a.par_iter_mut()
