@@ -200,8 +200,8 @@ impl Audit {
     fn volumes<const D: usize>(&mut self, asked: &Asked, solution: &Solution<D>, volumes: &[f64]) {
         let problem = &solution.problem;
         let particles = &solution.packed.particles;
-        let site = problem.filling().volume_per_site();
         let mut rooms = problem.rooms();
+        let sites = largest_sites(solution);
         // Parts too small for a particle leave their volume to what is around them, and a warning says so.
         for omitted in &solution.packed.omitted {
             rooms[omitted.body] -= omitted.volume;
@@ -214,7 +214,7 @@ impl Audit {
             if asked.role(number) != Role::Solid {
                 continue;
             }
-            let (asked, has) = (rooms[number], volumes[number]);
+            let (asked, has, site) = (rooms[number], volumes[number], sites[number]);
             let off = (has - asked).abs();
             self.volume_error = self.volume_error.max(off / asked.max(site));
             if off > (VOLUME_WITHIN * asked).max(0.5 * site) * (1.0 + 1e-9) {
@@ -235,7 +235,12 @@ impl Audit {
                 .sum();
             // Where the fluid has no particle, it may lack half of one.
             let has_fluid = volumes[problem.bodies.len()] > 0.0;
-            let slack = WHOLE_WITHIN * whole + if has_fluid { 0.0 } else { 0.5 * site };
+            let slack = WHOLE_WITHIN * whole
+                + if has_fluid {
+                    0.0
+                } else {
+                    0.5 * sites[problem.bodies.len()]
+                };
             let off = sum - whole;
             self.volume_error = self.volume_error.max(off.abs() / whole);
             if off.abs() > slack {
@@ -359,6 +364,27 @@ impl Audit {
             self.found(message, Some(worst.1));
         }
     }
+}
+
+/// What a particle of every body, and of the fluid last, has for its volume; the largest where they differ.
+fn largest_sites<const D: usize>(solution: &Solution<D>) -> Vec<f64> {
+    let Solution {
+        problem,
+        packed,
+        labels,
+        ..
+    } = solution;
+    let count = problem.bodies.len() + 1;
+    let particles = &packed.particles;
+    if particles.sizes.relative().is_none() {
+        return vec![problem.filling().volume_per_site(); count];
+    }
+    let mut sites = vec![problem.spacing().powi(D as i32); count];
+    for i in (0..particles.len()).filter(|&i| particles.kind[i] != Kind::Frozen) {
+        let of = labels.body[i].map_or(count - 1, usize::from);
+        sites[of] = f64::max(sites[of], particles.sizes.spacing(i).powi(D as i32));
+    }
+    sites
 }
 
 fn particles_are(count: usize) -> String {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Bounds, Domain, point};
-use sphpack_packing::{DensityQuality, Fields, Kind, Lattice, ResidualQuality};
+use sphpack_packing::{DensityQuality, Fields, Kind, Lattice, ResidualQuality, Sizes};
 
 use crate::Error;
 use crate::dimension::in_dimension;
@@ -30,9 +30,72 @@ pub struct Cloud {
     pub gamma: Option<Vec<f64>>,
     /// The smoothing length, where the file has the same for all.
     pub smoothing_length: Option<f64>,
+    /// The spacing and the smoothing length of each, where the file says that they differ; one of them may be missing.
+    pub sizes: Option<CloudSizes>,
     /// Outward unit normals of boundary particles, where the file has them.
     pub normal: Option<Vec<[f64; 3]>>,
 }
+
+/// What a file says of particles that differ in size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CloudSizes {
+    /// Spacings, scene units; the roots of the volumes where the file has none.
+    pub spacing: Vec<f64>,
+    /// Smoothing lengths over spacings, where that is one number.
+    pub h_over_spacing: Option<f64>,
+}
+
+impl CloudSizes {
+    /// From columns: where neither spacings nor smoothing lengths differ, none.
+    fn of(
+        columns: &Columns,
+        volume: &[f64],
+        dimension: usize,
+        path: &Path,
+    ) -> Result<Option<Self>, Error> {
+        let differing = |name: &str| {
+            let column = columns.numbers.get(name)?;
+            // Zeros throughout are no lengths.
+            let is_given = column.iter().any(|&length| length != 0.0);
+            (is_given && common(column).is_none()).then_some(column)
+        };
+        let (spacing, h) = (differing("spacing"), differing("h"));
+        if spacing.is_none() && h.is_none() {
+            return Ok(None);
+        }
+        for (name, column) in [("spacing", spacing), ("h", h)] {
+            let bad = |length: &f64| !(*length > 0.0 && length.is_finite());
+            if let Some(at) = column.and_then(|column| column.iter().position(bad)) {
+                return Err(Error::input(
+                    path,
+                    format!(
+                        "particle {at} has a \"{name}\" that is no positive, finite number; correct it, or leave the column out"
+                    ),
+                ));
+            }
+        }
+        let spacing = spacing.cloned().unwrap_or_else(|| {
+            let root = 1.0 / dimension as f64;
+            volume.iter().map(|volume| volume.powf(root)).collect()
+        });
+        let h_over_spacing = h.and_then(|h| {
+            let ratios: Vec<f64> = h.iter().zip(&spacing).map(|(h, s)| h / s).collect();
+            common(&ratios)
+        });
+        let spacing = match (h, h_over_spacing) {
+            // The file's own h, whatever it is of the volumes.
+            (Some(h), None) => h.iter().map(|h| h / H_OVER_SPACING).collect(),
+            _ => spacing,
+        };
+        Ok(Some(Self {
+            spacing,
+            h_over_spacing: h.map(|_| h_over_spacing.unwrap_or(H_OVER_SPACING)),
+        }))
+    }
+}
+
+/// h over the spacing where nothing says it.
+pub(crate) const H_OVER_SPACING: f64 = 1.2;
 
 /// The figures of somebody's particles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,7 +181,9 @@ impl Cloud {
             ),
             _ => None,
         };
+        let sizes = CloudSizes::of(&columns, &volume, dimension, path)?;
         Ok(Self {
+            sizes,
             path: path.to_owned(),
             dimension,
             position,
@@ -161,8 +226,13 @@ impl Cloud {
     ) -> Result<CloudQuality, Error> {
         let positions: Vec<[f64; D]> = (self.position.iter()).map(|p| point::of_slice(p)).collect();
         let bounds = Bounds::of(&positions);
-        let h = h_over_spacing * spacing;
-        let support = kernel.support_over_h() * h;
+        let sizes = match &self.sizes {
+            Some(each) => Sizes::each(&each.spacing, h_over_spacing),
+            None => Sizes::uniform(spacing, h_over_spacing),
+        };
+        let coarsest =
+            (0..positions.len()).fold(0.0, |most: f64, i| most.max(sizes.over_finest(i)));
+        let support = kernel.support_over_h() * sizes.smallest_smoothing_length() * coarsest;
         self.check_spacing(&bounds, support, spacing)?;
         let has_frozen = self.frozen_count() > 0;
         let inner = bounds.grown(-support);
@@ -181,7 +251,15 @@ impl Cloud {
             bounds,
             periodic: [false; D],
         };
-        let fields = Fields::measure(&domain, &positions, &self.volume, is_measured, kernel, h);
+        let is_graded = sizes.relative().is_some();
+        let fields = Fields::measure_each(
+            &domain,
+            &positions,
+            &self.volume,
+            sizes,
+            is_measured,
+            kernel,
+        );
         let gamma: Vec<f64> = measured.iter().map(|&i| fields.gamma[i]).collect();
         let free: Vec<f64> = measured
             .iter()
@@ -192,10 +270,19 @@ impl Cloud {
             measured
                 .iter()
                 .filter(|&&i| self.kind[i] == Kind::Boundary)
-                .map(|&i| (fields.gradient[i], point::of_slice(&normals[i])))
-                .map(|(gradient, normal)| h * point::norm(point::reject(gradient, normal)))
+                .map(|&i| {
+                    (
+                        i,
+                        point::reject(fields.gradient[i], point::of_slice(&normals[i])),
+                    )
+                })
+                .map(|(i, along)| fields.sizes.smoothing_length(i) * point::norm(along))
         });
-        let lattice = Lattice::auto(D, kernel, h_over_spacing).gamma(kernel, h_over_spacing);
+        let lattice = if is_graded {
+            1.0
+        } else {
+            Lattice::auto(D, kernel, h_over_spacing).gamma(kernel, h_over_spacing)
+        };
         Ok(CloudQuality {
             density: DensityQuality::of(&gamma, lattice),
             residual: ResidualQuality::of(&free, tangential.fold(0.0, f64::max)),

@@ -2,15 +2,17 @@
 
 use std::time::Instant;
 
-use sphpack_geometry::{GeometryError, MeshError, OutlineError};
+use sphpack_geometry::{GeometryError, MeshError, OutlineError, Similarity};
 use sphpack_neighbors::{Bounds, Domain, point, words};
-use sphpack_packing::{Body, Estimate, FrozenLayout, Kind, Moves, PackingError, Problem};
+use sphpack_packing::{
+    Body, Estimate, FrozenLayout, Kind, Moves, PackingError, Problem, Refinement,
+};
 
 use crate::Error;
 use crate::body_file::{BodyFile, ReadBody};
 use crate::dimension::{Built, Dimension, Space, in_dimension};
 use crate::error::cured;
-use crate::scene::{Fault, Frozen, Role, Scene, Surroundings};
+use crate::scene::{Fault, Frozen, RefinementSpec, Role, Scene, Surroundings};
 use crate::{beyond, methods, overlap, precedence, roles, units};
 
 pub(crate) use crate::memory::available_bytes;
@@ -24,6 +26,8 @@ pub struct Plan {
     pub read: Vec<ReadBody>,
     /// Particles, memory and time.
     pub estimate: Estimate,
+    /// Where spacings differ, how many times as many particles the finest alone would take.
+    pub times_fewer: Option<f64>,
     /// Seconds that the bodies took to be built.
     pub building_seconds: f64,
     /// The memory that may be used, bytes.
@@ -81,9 +85,15 @@ where
     let (prepared, estimate) = prepare::<D>(scene, opened, allowed_bytes)?;
     methods::check(&prepared.problem, &prepared.resolved)?;
     let names = prepared.resolved.body.into_iter().map(|body| body.name);
+    let problem = &prepared.problem;
+    let times_fewer = problem.resolution.uniform().is_none().then(|| {
+        let finest = problem.domain.bounds.volume() / problem.spacing().powi(D as i32);
+        finest / estimate.particles
+    });
     Ok(Plan {
         dimension: D,
         read: prepared.read,
+        times_fewer,
         estimate,
         building_seconds: prepared.seconds,
         allowed_bytes,
@@ -299,7 +309,12 @@ where
             Frozen::Square => FrozenLayout::Square,
         },
     };
-    let problem = bodies.into_iter().fold(empty, Problem::placed_body);
+    let mut problem = bodies.into_iter().fold(empty, Problem::placed_body);
+    if let Some(refinement) = &scene.refinement {
+        problem.resolution = graded::<D>(scene, refinement, &problem)?.into();
+        problem.judging_reach *= problem.spacing() / scene.spacing;
+    }
+    let problem = problem;
     refuse_overlaps(scene, &problem.bodies)?;
     let fail = |source: PackingError| Error::Packing {
         path: scene.path.clone(),
@@ -378,6 +393,40 @@ where
         },
         estimate,
     ))
+}
+
+/// The field of spacings around the problem's bodies and the scene's regions.
+fn graded<const D: usize>(
+    scene: &Scene,
+    refinement: &RefinementSpec,
+    problem: &Problem<D>,
+) -> Result<Refinement<D>, Error>
+where
+    Space<D>: Dimension<D>,
+{
+    let mut field = Refinement::new(refinement.coarsest, refinement.growth);
+    for (number, body) in problem.bodies.iter().enumerate() {
+        field = field.around(body.surface.clone(), scene.spacing_of(number));
+    }
+    for (number, region) in refinement.region.iter().enumerate() {
+        let name = format!("refinement.region {}", number + 1);
+        let file = match region.shape.file() {
+            Some(file) => {
+                let read = BodyFile::read(&scene.resolve(file));
+                Some(read.map_err(|error| of_body(error, scene, &name))?)
+            }
+            None => None,
+        };
+        let built = Space::<D>::build(&region.shape, file.as_ref(), &Similarity::identity());
+        let surface = built.map_err(|error| Error::Body {
+            path: scene.path.clone(),
+            body: name,
+            error,
+        })?;
+        let surface = problem.placed(surface.surface);
+        field = field.within(surface, scene.no_finer(region.spacing));
+    }
+    Ok(field)
 }
 
 /// A body so many times larger than the box is a slip: what looks along its surface would never come to an end.

@@ -16,8 +16,8 @@ pub use sphpack_geometry::{
 pub use sphpack_kernels::{Cubic, Kernel, KernelKind, Quintic, WendlandC2, WendlandC4, WendlandC6};
 pub use sphpack_neighbors::{Bounds, CellList, Domain, KdTree};
 pub use sphpack_packing::{
-    Balanced, Band, Finish, Kind, Lattice, Method, Packed, Particles, Problem, Quality, Resolution,
-    RunLog, Settling, Silent, Sizes, SpacingField, StopReason, Uniform,
+    Balanced, Band, Finish, Graded, Kind, Lattice, Method, Packed, Particles, Problem, Quality,
+    Refinement, Resolution, RunLog, Settling, Silent, Sizes, SpacingField, StopReason, Uniform,
 };
 pub use sphpack_pairs::{Density, Fields, Gradient, Pairs, Term};
 pub use sphpack_separation::{Labels, Side, separate};

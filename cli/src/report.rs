@@ -24,6 +24,9 @@ pub struct Report {
     pub dimension: usize,
     /// ∆s, scene units.
     pub spacing: f64,
+    /// Where spacings differ, how.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<ResolutionReport>,
     /// The method's name.
     pub method: &'static str,
     /// The name of the kernel that packed.
@@ -102,6 +105,23 @@ pub(crate) fn finite_surface(quality: &SurfaceQuality) -> SurfaceQuality {
 /// JSON has no infinities: 0 for figures of too few particles.
 pub(crate) fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { 0.0 }
+}
+
+/// How spacings differ.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ResolutionReport {
+    /// The finest spacing that a particle has, scene units.
+    pub finest: f64,
+    /// The coarsest.
+    pub coarsest: f64,
+    /// The coarsest over the finest.
+    pub ratio: f64,
+    /// The ratio of neighbouring particles' spacings, 1 + ∣∇s∣: the mean over all free particles.
+    pub growth_mean: f64,
+    /// The greatest.
+    pub growth_max: f64,
+    /// How many times as many particles the finest spacing alone would take.
+    pub times_fewer: f64,
 }
 
 /// A body's content.

@@ -16,8 +16,8 @@ use crate::labels::{Sorted, sort};
 use crate::methods::pack;
 use crate::plan::{Opened, Prepared, available_bytes, judged, opened, prepare};
 use crate::report::{
-    BodyReport, Counts, MassReport, Report, SCHEMA, SecondsReport, finite, finite_surface,
-    peak_memory_bytes,
+    BodyReport, Counts, MassReport, Report, ResolutionReport, SCHEMA, SecondsReport, finite,
+    finite_surface, peak_memory_bytes,
 };
 use crate::scene::{Masses, Role, Scene};
 use crate::solution::{Packing, Solution};
@@ -169,6 +169,11 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .get(i)
             .map_or_else(|| rest_density(i), |rest| rest.density)
     };
+    let is_graded = particles.sizes.relative().is_some();
+    let sizes = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        let some = if is_graded { all.clone() } else { 0..0 };
+        some.map(of).collect()
+    };
     Table {
         dimension: D,
         stop_reason: packed.stop_reason.name().to_owned(),
@@ -198,6 +203,8 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .collect(),
         pressure: at_rest.iter().map(|rest| rest.pressure).collect(),
         density: at_rest.iter().map(|rest| rest.density).collect(),
+        spacing: sizes(&|i| particles.sizes.spacing(i)),
+        smoothing_length: sizes(&|i| fields.sizes.smoothing_length(i)),
     }
 }
 
@@ -264,6 +271,34 @@ fn too_small<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Vec<Strin
     warnings
 }
 
+/// How spacings differ, where they do.
+fn resolution<const D: usize>(solution: &Solution<D>) -> Option<ResolutionReport> {
+    let Solution {
+        problem, packed, ..
+    } = solution;
+    let particles = &packed.particles;
+    particles.sizes.relative()?;
+    let inner: Vec<usize> = (0..particles.len())
+        .filter(|&i| particles.kind[i] != Kind::Frozen)
+        .collect();
+    let spacing = |i: &usize| particles.sizes.spacing(*i);
+    let finest = inner.iter().map(spacing).fold(f64::INFINITY, f64::min);
+    let coarsest = inner.iter().map(spacing).fold(0.0, f64::max);
+    let growth: Vec<f64> = (inner.iter())
+        .filter(|&&i| particles.kind[i] == Kind::Free)
+        .map(|&i| point::norm(problem.resolution.at(particles.position[i]).gradient))
+        .collect();
+    let uniform = problem.domain.bounds.volume() / finest.powi(D as i32);
+    Some(ResolutionReport {
+        finest,
+        coarsest,
+        ratio: coarsest / finest,
+        growth_mean: 1.0 + growth.iter().sum::<f64>() / growth.len().max(1) as f64,
+        growth_max: 1.0 + growth.iter().copied().fold(0.0, f64::max),
+        times_fewer: uniform / inner.len() as f64,
+    })
+}
+
 fn report<const D: usize>(
     scene: &Scene,
     solution: &Solution<D>,
@@ -300,6 +335,7 @@ fn report<const D: usize>(
         scene: scene.clone(),
         dimension: D,
         spacing: problem.spacing(),
+        resolution: resolution(solution),
         method: scene.packing.method.name(),
         kernel: problem.kernel.name(),
         h_over_spacing: problem.h_over_spacing,

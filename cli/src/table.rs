@@ -38,6 +38,10 @@ pub struct Table {
     pub pressure: Vec<f64>,
     /// Density at that pressure, solids' own; empty likewise.
     pub density: Vec<f64>,
+    /// The spacing of each, scene units; empty where all have one.
+    pub spacing: Vec<f64>,
+    /// The smoothing length of each, scene units, by which Γ was judged; empty likewise.
+    pub smoothing_length: Vec<f64>,
 }
 
 impl Table {
@@ -92,7 +96,14 @@ impl Table {
         pick(&mut self.residual, order);
         pick(&mut self.pressure, order);
         pick(&mut self.density, order);
+        pick(&mut self.spacing, order);
+        pick(&mut self.smoothing_length, order);
         self
+    }
+
+    /// The spacing of particle `i`: its own, or that of all.
+    pub fn spacing_of(&self, i: usize, all: f64) -> f64 {
+        self.spacing.get(i).copied().unwrap_or(all)
     }
 
     /// The outward unit normal at particle `i`; 0 where it is on no surface.

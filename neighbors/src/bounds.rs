@@ -102,6 +102,21 @@ impl<const D: usize> Bounds<D> {
         self.size().iter().product()
     }
 
+    /// The lower and the upper half of the box, cut across `axis`.
+    #[must_use]
+    pub fn halves(self, axis: usize) -> [Self; 2] {
+        self.cut(axis, self.center()[axis])
+    }
+
+    /// The parts of the box below and above `at` on an axis.
+    #[must_use]
+    pub fn cut(self, axis: usize, at: f64) -> [Self; 2] {
+        let (mut lower, mut upper) = (self, self);
+        lower.max[axis] = at;
+        upper.min[axis] = at;
+        [lower, upper]
+    }
+
     /// Whether no point lies in the box.
     pub fn is_empty(&self) -> bool {
         (0..D).any(|k| self.min[k] > self.max[k])

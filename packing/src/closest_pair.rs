@@ -10,12 +10,15 @@ use crate::slabs::{self, Slab};
 pub struct ClosestPair<const D: usize> {
     /// The smallest distance, scene units; infinite where there is no other particle.
     pub distance: f64,
-    /// The smallest distance over the mean of both particles' sizes, V^(1/D), of pairs nearer than half of that; infinite
-    /// where there is none.
+    /// The smallest distance over the mean of both particles' sizes, V^(1/D), of pairs nearer than half of that (or another part that
+    /// was asked for); infinite where there is none.
     pub crowded: f64,
     /// Where one of the two of `crowded` is.
     pub place: [f64; D],
 }
+
+/// Nearest neighbours of many sizes are within so many of them.
+pub const NEIGHBORS_IN_SIZES: f64 = 1.5;
 
 /// Pairs nearer than this, in the mean of both sizes, are two particles in the room of one.
 pub const CROWDED: f64 = 0.5;
@@ -49,7 +52,22 @@ impl<const D: usize> ClosestPair<D> {
         is_asked: impl Fn(usize) -> bool + Sync,
         likely: f64,
     ) -> Self {
-        Self::by_slabs(domain, positions, volumes, is_asked, likely, slabs::MOST)
+        let limits = (likely, CROWDED);
+        Self::by_slabs(domain, positions, volumes, is_asked, limits, slabs::MOST)
+    }
+
+    /// [`ClosestPair::of`] where particles differ in size: `crowded` is the smallest distance in sizes of all pairs nearer
+    /// than `sizes` of them.
+    pub fn by_size(
+        domain: &Domain<D>,
+        positions: &[[f64; D]],
+        volumes: &[f64],
+        is_asked: impl Fn(usize) -> bool + Sync,
+        likely: f64,
+        sizes: f64,
+    ) -> Self {
+        let limits = (likely, sizes);
+        Self::by_slabs(domain, positions, volumes, is_asked, limits, slabs::MOST)
     }
 
     fn by_slabs(
@@ -57,27 +75,36 @@ impl<const D: usize> ClosestPair<D> {
         positions: &[[f64; D]],
         volumes: &[f64],
         is_asked: impl Fn(usize) -> bool + Sync,
-        likely: f64,
+        (likely, crowded): (f64, f64),
         most: usize,
     ) -> Self {
         let size = |volume: f64| volume.max(0.0).powf(1.0 / D as f64);
         let largest = volumes
             .iter()
             .fold(0.0, |most: f64, &volume| most.max(size(volume)));
-        let margin = likely.max(CROWDED * largest);
+        let margin = likely.max(crowded * largest);
         let mut closest = Self::NONE;
         for Slab { order, is_inside } in slabs::slabs(domain, positions, margin, most) {
             let near: Vec<[f64; D]> = order.iter().map(|&i| domain.wrap(positions[i])).collect();
             let sizes: Vec<f64> = order.iter().map(|&i| size(volumes[i])).collect();
             let is_asked = |k: usize| is_inside[k] && is_asked(order[k]);
-            closest = closest.with(Self::among(domain, &near, &sizes, is_asked, margin));
+            closest = closest.with(Self::among(
+                domain, &near, &sizes, is_asked, margin, crowded,
+            ));
         }
         if closest.distance <= likely {
             return closest;
         }
         let all: Vec<[f64; D]> = positions.iter().map(|&p| domain.wrap(p)).collect();
         let sizes: Vec<f64> = volumes.iter().map(|&volume| size(volume)).collect();
-        Self::among(domain, &all, &sizes, is_asked, domain.bounds.diagonal())
+        Self::among(
+            domain,
+            &all,
+            &sizes,
+            is_asked,
+            domain.bounds.diagonal(),
+            crowded,
+        )
     }
 
     /// All at once, of points in the box; across periodic sides within `reach` only.
@@ -87,6 +114,7 @@ impl<const D: usize> ClosestPair<D> {
         sizes: &[f64],
         is_asked: impl Fn(usize) -> bool + Sync,
         reach: f64,
+        crowded: f64,
     ) -> Self {
         let Ok(tree) = KdTree::new(points) else {
             return Self {
@@ -109,13 +137,13 @@ impl<const D: usize> ClosestPair<D> {
                     };
                     let Some(nearest) = nearest else { continue };
                     pair.distance = pair.distance.min(nearest.distance);
-                    let sight = 0.5 * CROWDED * (sizes[i] + largest);
+                    let sight = 0.5 * crowded * (sizes[i] + largest);
                     if nearest.distance > sight {
                         continue;
                     }
                     for found in tree.within(image, sight) {
                         let over = 2.0 * found.distance / (sizes[i] + sizes[found.index]);
-                        if (number > 0 || found.index != i) && over < CROWDED.min(pair.crowded) {
+                        if (number > 0 || found.index != i) && over < crowded.min(pair.crowded) {
                             pair.crowded = over;
                             pair.place = points[i];
                         }
@@ -185,8 +213,14 @@ mod tests {
                 .fold(f64::INFINITY, f64::min);
             assert!(crowded < CROWDED);
             for most in [usize::MAX, 300] {
-                let found =
-                    ClosestPair::by_slabs(&domain, &positions, &volumes, is_asked, 2.0, most);
+                let found = ClosestPair::by_slabs(
+                    &domain,
+                    &positions,
+                    &volumes,
+                    is_asked,
+                    (2.0, CROWDED),
+                    most,
+                );
                 assert!(
                     (found.distance - nearest).abs() < 1e-14,
                     "{found:?} {nearest}"

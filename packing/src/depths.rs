@@ -37,6 +37,11 @@ pub(crate) struct Seen<const D: usize> {
 }
 
 impl<const D: usize> Seen<D> {
+    /// The nearest place of the surface from where this was seen.
+    pub(crate) fn nearest(&self, from: [f64; D]) -> [f64; D] {
+        point::add_scaled(from, -self.distance, self.gradient)
+    }
+
     fn from(place: [f64; D], hit: &Closest<D>) -> Self {
         let away = point::unit(point::sub(place, hit.point)).unwrap_or([0.0; D]);
         Self {

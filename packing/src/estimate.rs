@@ -110,6 +110,13 @@ const CUTTING_SECONDS: f64 = 1.8e-5;
 /// support: 33 ns for a ball of radius 3 ∆s, 8 ns for a box 4 ∆s thick, whose fluid is one particle deep.
 const CONFINING_SECONDS: f64 = 1.5e-8;
 
+/// Where spacings differ: bytes of a particle beside those of others, of a neighbour in its list; the time of an evaluation over
+/// that of a uniform one, and core-seconds until a particle is at its place.
+const GRADED_BYTES: f64 = 400.0;
+const GRADED_LISTED: [f64; 2] = [2.0, 2.0];
+const GRADED_SUMS: f64 = 1.5;
+const GRADED_PLACING: f64 = 3e-5;
+
 impl<const D: usize> Problem<D> {
     /// What the packing by a method of such work will need, from volumes alone, where particles within `moves` (scene
     /// units) of a surface settle and the others stay where they are; allocates nothing.
@@ -118,6 +125,9 @@ impl<const D: usize> Problem<D> {
     /// Those of [`Problem::check`].
     pub fn estimate(&self, moves: f64, work: &Work) -> Result<Estimate, PackingError> {
         self.check()?;
+        if self.resolution.uniform().is_none() {
+            return Ok(self.estimate_graded(work));
+        }
         let filling = self.filling();
         let particles = filling.count() as f64;
         let frozen = filling.continued_count(&self.domain, self.frozen_depth());
@@ -178,6 +188,29 @@ impl<const D: usize> Problem<D> {
                 + on_surface * work.sampling[D - 2]
                 + sides * patches * CUTTING_SECONDS,
         })
+    }
+
+    /// [`Problem::estimate`] where spacings differ: all particles move, are placed and summed by their own sizes.
+    fn estimate_graded(&self, work: &Work) -> Estimate {
+        let sight = self.frozen_depth() / self.spacing();
+        let [particles, frozen] = self.resolution.count_in_box(&self.domain, sight);
+        let unit_ball = [std::f64::consts::PI, 4.0 / 3.0 * std::f64::consts::PI][D - 2];
+        let in_spacings = self.support() / self.spacing();
+        let neighbors = unit_ball * in_spacings.powi(D as i32);
+        let all = particles + frozen;
+        let bytes = work.bytes[D - 2] + GRADED_BYTES + GRADED_LISTED[D - 2] * neighbors;
+        let peak = all * (bytes + SEEN_BYTES + PARTICLE_BYTES);
+        let kept = all * COLUMN_BYTES[D - 2] + all.min(MOST_HELD) * HELD_BYTES[D - 2];
+        let sum = BESIDE_SECONDS[D - 2] + neighbors * PAIR_SECONDS[D - 2];
+        Estimate {
+            particles,
+            frozen,
+            neighbors,
+            memory_bytes: LEAST_BYTES + peak.max(kept),
+            kept_bytes: LEAST_BYTES + kept,
+            seconds_per_evaluation: GRADED_SUMS * work.times_plain * particles * sum,
+            seconds_beside: all * END_SECONDS + particles * GRADED_PLACING,
+        }
     }
 
     /// How long the bodies' sharp edges are, in ∆s; 0 in the plane.

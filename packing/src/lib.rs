@@ -24,6 +24,7 @@ pub mod packed;
 pub mod particles;
 pub mod problem;
 pub mod quality;
+pub mod refinement;
 pub mod resolution;
 pub mod run_log;
 pub mod seeding;
@@ -53,6 +54,7 @@ pub use packed::{Omitted, Packed, ParticleSurface, Seconds, StopReason, SurfaceP
 pub use particles::{Kind, Particles, UnknownKind};
 pub use problem::{Body, FrozenLayout, PackingError, Problem};
 pub use quality::{DensityQuality, Fields, Quality, ResidualQuality, SurfaceQuality};
+pub use refinement::{Graded, Refinement};
 pub use resolution::{Resolution, Spacing, SpacingField, Uniform};
 pub use run_log::RunLog;
 pub use sizes::Sizes;

@@ -91,7 +91,7 @@ pub enum PackingError {
     },
     /// Spacings differ from place to place.
     #[error(
-        "spacings from {least} to {greatest} were asked for; no method places particles of different sizes yet: give one spacing"
+        "spacings from {least} to {greatest} were asked for; the method \"balanced\" alone places particles of different sizes: use it, or one spacing"
     )]
     Graded {
         /// The least, scene units.
@@ -287,11 +287,19 @@ impl<const D: usize> Problem<D> {
     /// passes an open side, must be [`Continued`](sphpack_geometry::Continued) beyond the same box.
     #[must_use]
     pub fn placed_body(mut self, mut body: Body<D>) -> Self {
-        if self.domain.is_periodic() && body.surface.window().is_none() {
-            body.surface = Arc::new(Repeated::new(body.surface, &self.domain));
-        }
+        body.surface = self.placed(body.surface);
+        self.resolution = self.resolution.beside(&body.surface);
         self.bodies.push(body);
         self
+    }
+
+    /// A surface that sees its images across periodic sides, where there are any.
+    pub fn placed(&self, surface: Arc<dyn Surface<D>>) -> Arc<dyn Surface<D>> {
+        if self.domain.is_periodic() && surface.window().is_none() {
+            Arc::new(Repeated::new(surface, &self.domain))
+        } else {
+            surface
+        }
     }
 
     /// ∆s, scene units: the D-th root of a particle's volume; the least where spacings differ.
@@ -346,6 +354,19 @@ impl<const D: usize> Problem<D> {
         SKIN_OVER_SPACING * self.spacing()
     }
 
+    /// [`Problem::check`], and whether there is one spacing.
+    ///
+    /// # Errors
+    /// The first [`PackingError`] found.
+    pub fn check_uniform(&self) -> Result<(), PackingError> {
+        self.check()?;
+        if self.resolution.uniform().is_none() {
+            let [least, greatest] = self.resolution.range();
+            return Err(PackingError::Graded { least, greatest });
+        }
+        Ok(())
+    }
+
     /// Whether the problem makes sense, before anything large is allocated.
     ///
     /// # Errors
@@ -353,15 +374,12 @@ impl<const D: usize> Problem<D> {
     pub fn check(&self) -> Result<(), PackingError> {
         for (name, value) in [
             ("the spacing", self.spacing()),
+            ("the coarsest spacing", self.resolution.range()[1]),
             ("h_over_spacing", self.h_over_spacing),
         ] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(PackingError::NotPositive { name, value });
             }
-        }
-        if self.resolution.uniform().is_none() {
-            let [least, greatest] = self.resolution.range();
-            return Err(PackingError::Graded { least, greatest });
         }
         let size = self.domain.bounds.size();
         for &edge in &size {
@@ -386,7 +404,7 @@ impl<const D: usize> Problem<D> {
                 dimension: D,
             });
         }
-        let reach = self.frozen_depth();
+        let reach = self.frozen_depth() * (self.resolution.range()[1] / self.spacing());
         for axis in 0..D {
             if self.domain.periodic[axis] && size[axis] < 2.0 * reach {
                 return Err(PackingError::PeriodTooShort {

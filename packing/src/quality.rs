@@ -7,7 +7,7 @@ use sphpack_geometry::thickness;
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{Domain, KdTree, point};
 
-use crate::closest_pair::ClosestPair;
+use crate::closest_pair::{ClosestPair, NEIGHBORS_IN_SIZES};
 use crate::forces::{Forces, blocked_sum, largest};
 use crate::packed::{Packed, ParticleSurface, SurfaceParticle};
 use crate::particles::Kind;
@@ -91,7 +91,7 @@ pub struct Quality {
     pub residual: ResidualQuality,
     /// Each body's surface.
     pub surface: Vec<SurfaceQuality>,
-    /// Smallest distance between two particles, in ∆s.
+    /// Smallest distance between two particles, in ∆s; where they differ in size, in the mean of both sizes, V^(1/D).
     pub closest_pair_over_spacing: f64,
     /// Smallest distance between two particles in the mean of both sizes, V^(1/D), where that is below a half; infinite
     /// where no two are so near.
@@ -236,10 +236,12 @@ pub struct Spacing {
 }
 
 impl Spacing {
-    /// Of the points for which `is_asked` holds, others being neighbours only. O(n log n), parallel.
+    /// Of the points for which `is_asked` holds, others being neighbours only; each point's distance divided by what `size` says.
+    /// O(n log n), parallel.
     pub fn of_some<const D: usize>(
         points: &[[f64; D]],
         is_asked: impl Fn(usize) -> bool + Sync,
+        size: impl Fn(usize) -> f64 + Sync,
     ) -> Self {
         let Ok(tree) = KdTree::new(points) else {
             return Self { mean: 0.0, cv: 0.0 };
@@ -248,7 +250,10 @@ impl Spacing {
             .into_par_iter()
             .with_min_len(256)
             .filter(|&i| is_asked(i))
-            .filter_map(|i| tree.nearest_n(points[i], 2).get(1).map(|hit| hit.distance))
+            .filter_map(|i| {
+                let nearest = tree.nearest_n(points[i], 2);
+                nearest.get(1).map(|hit| hit.distance / size(i))
+            })
             .collect();
         let n = distances.len().max(1) as f64;
         let mean = blocked_sum(&distances, |&s| s) / n;
@@ -305,20 +310,37 @@ impl<const D: usize> Packed<D> {
             fields.sizes.smoothing_length(particle) * point::norm(along)
         });
         let h_over_spacing = fields.sizes.smallest_smoothing_length() / self.spacing;
-        let pair = ClosestPair::of(
-            &self.domain,
-            &particles.position,
-            &particles.volume,
-            |i| particles.kind[i] != Kind::Frozen,
-            2.0 * self.spacing,
-        );
+        let is_graded = particles.sizes.relative().is_some();
+        let is_asked = |i: usize| particles.kind[i] != Kind::Frozen;
+        let (places, volumes) = (&particles.position, &particles.volume);
+        let likely = 2.0 * self.spacing;
+        let (pair, closest) = if is_graded {
+            let pair = ClosestPair::by_size(
+                &self.domain,
+                places,
+                volumes,
+                is_asked,
+                likely,
+                NEIGHBORS_IN_SIZES,
+            );
+            (pair, pair.crowded)
+        } else {
+            let pair = ClosestPair::of(&self.domain, places, volumes, is_asked, likely);
+            (pair, pair.distance / self.spacing)
+        };
+        // An even filling by particles of many sizes has no lattice; its Γ is 1.
+        let lattice = if is_graded {
+            1.0
+        } else {
+            self.lattice.gamma(fields.kernel, h_over_spacing)
+        };
         Quality {
-            density: DensityQuality::of(&gamma, self.lattice.gamma(fields.kernel, h_over_spacing)),
+            density: DensityQuality::of(&gamma, lattice),
             residual: ResidualQuality::of(&free, max_tangential),
             surface: (self.surfaces.iter().zip(&self.bodies).zip(0_u16..))
                 .map(|((surface, name), body)| self.surface_quality(surface, name, body))
                 .collect(),
-            closest_pair_over_spacing: pair.distance / self.spacing,
+            closest_pair_over_spacing: closest,
             crowded: pair.crowded,
             crowded_at: if pair.crowded.is_finite() {
                 pair.place.to_vec()
@@ -350,11 +372,13 @@ impl<const D: usize> Packed<D> {
         // In thin parts particles sit farther apart on purpose.
         let is_thick: Vec<bool> = (own.par_iter().with_min_len(64))
             .map(|seat| {
-                let thickness = thickness(surface.surface.as_ref(), &seat.hit, self.spacing);
-                thickness >= 0.999 * self.spacing
+                let spacing = particles.sizes.spacing(seat.particle);
+                let thickness = thickness(surface.surface.as_ref(), &seat.hit, spacing);
+                thickness >= 0.999 * spacing
             })
             .collect();
-        let spacing = Spacing::of_some(&on, |i| is_thick[i]);
+        let over_finest = |k: usize| particles.sizes.over_finest(own[k].particle);
+        let spacing = Spacing::of_some(&on, |i| is_thick[i], over_finest);
         SurfaceQuality {
             body: name.to_owned(),
             measure: surface.surface.measure(),

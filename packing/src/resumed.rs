@@ -146,6 +146,17 @@ fn discs(spacing: f64) -> Problem<2> {
 }
 
 #[test]
+fn graded() {
+    let mut problem = discs(0.06);
+    let mut field = crate::Refinement::new(0.15, 1.1);
+    for body in &problem.bodies {
+        field = field.around(body.surface.clone(), 0.06);
+    }
+    problem.resolution = field.into();
+    check(&|observer| Balanced::default().pack_in(&problem, &mut RunLog::new(observer)));
+}
+
+#[test]
 fn balanced() {
     let problem = discs(0.1);
     for minimiser in MinimiserKind::ALL {

@@ -201,19 +201,27 @@ impl<'a> RunLog<'a> {
 
     /// Notes the figures of the last evaluation.
     pub(crate) fn note<const D: usize>(&mut self, forces: &Forces<D>, particles: &Particles<D>) {
-        self.progress.seconds = self.seconds_so_far();
         let kind = &particles.kind;
         let of = |wanted: bool, value: f64| if wanted { value } else { 0.0 };
+        let energy = forces.energy() / forces.list().targets().max(1) as f64;
+        let residual = forces.smoothing_length()
+            * largest(kind.len(), |i| {
+                of(kind[i] == Kind::Free, point::norm(forces.gradient(i)))
+            });
+        let linf = largest(kind.len(), |i| {
+            of(kind[i] != Kind::Frozen, (forces.gamma(i) - 1.0).abs())
+        });
+        self.note_figures(energy, residual, linf);
+    }
+
+    /// Notes the energy per particle, the largest h|∇Γ| and the largest |Γ − 1|.
+    pub(crate) fn note_figures(&mut self, energy: f64, residual: f64, linf: f64) {
+        self.progress.seconds = self.seconds_so_far();
         self.history.push(HistoryPoint {
             evaluation: self.progress.evaluation,
-            energy: forces.energy() / forces.list().targets().max(1) as f64,
-            residual: forces.smoothing_length()
-                * largest(kind.len(), |i| {
-                    of(kind[i] == Kind::Free, point::norm(forces.gradient(i)))
-                }),
-            linf: largest(kind.len(), |i| {
-                of(kind[i] != Kind::Frozen, (forces.gamma(i) - 1.0).abs())
-            }),
+            energy,
+            residual,
+            linf,
             seconds: self.progress.seconds,
         });
     }
@@ -226,14 +234,27 @@ impl<'a> RunLog<'a> {
         self.earlier_evaluations += forces.evaluations();
     }
 
-    /// The result: the clock stops.
+    /// The result, of particles that `forces` settled: the clock stops.
     pub(crate) fn end<const D: usize>(
+        &mut self,
+        problem: &Problem<D>,
+        particles: Particles<D>,
+        frozen_lattice: Filling<D>,
+        surfaces: Vec<ParticleSurface<D>>,
+        forces: &Forces<D>,
+        stop_reason: StopReason,
+    ) -> Packed<D> {
+        self.count(forces);
+        self.end_counted(problem, particles, frozen_lattice, surfaces, stop_reason)
+    }
+
+    /// The result where all evaluations are counted: the clock stops.
+    pub(crate) fn end_counted<const D: usize>(
         &mut self,
         problem: &Problem<D>,
         mut particles: Particles<D>,
         frozen_lattice: Filling<D>,
         surfaces: Vec<ParticleSurface<D>>,
-        forces: &Forces<D>,
         stop_reason: StopReason,
     ) -> Packed<D> {
         if problem.domain.is_periodic() {
@@ -246,7 +267,6 @@ impl<'a> RunLog<'a> {
         let projecting = Instant::now();
         let on_surface = ParticleSurface::seats(&surfaces, &particles);
         self.seconds.projection += projecting.elapsed().as_secs_f64();
-        self.count(forces);
         self.seconds.total = self.seconds_so_far();
         let Seconds {
             geometry,

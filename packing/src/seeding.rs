@@ -93,7 +93,7 @@ impl<const D: usize> Seeds<D> {
 /// # Errors
 /// Those of [`Problem::check`].
 pub fn seed<const D: usize>(problem: &Problem<D>) -> Result<Seeds<D>, PackingError> {
-    problem.check()?;
+    problem.check_uniform()?;
     let filling = in_phase(problem, problem.filling());
     let volume = filling.volume_per_site();
     let mut particles = Particles::new(problem.sizes());

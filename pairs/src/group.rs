@@ -44,7 +44,8 @@ pub struct Group<'a, S: Simd, const D: usize> {
     pub own: Values<S>,
     /// W(r, h_j), where the term asks for it ([`crate::Term::THEIRS`]); else as [`Group::own`].
     pub theirs: Values<S>,
-    /// W(r, (h_i + h_j)/2), where the term asks for it ([`crate::Term::MEAN`]); else as [`Group::own`].
+    /// W(r, h̄) with h̄² = a h_i² + (1 − a) h_j² and a = [`crate::Term::own_part`], ½ by default, where the term asks for it
+    /// ([`crate::Term::MEAN`]); else as [`Group::own`].
     pub mean: Values<S>,
     /// d²W/dr² = this · [`Scale::over_r`] for W(r, h_i), where the term asks for it ([`crate::Term::CURVATURE`]); else as
     /// [`Values::slope`].

@@ -16,9 +16,10 @@ pub use fields::{Fields, Pairs};
 pub use gathered::{Gathered, unit};
 pub use group::{Group, Scale, Targets, Values};
 pub use lanes::Several;
-pub use packing_sums::{PackingSum, PackingSums, PackingTerms, Shape};
+pub use packing_sums::{PackingSum, PackingSums, PackingTerms, Shape, SizedSum, SizedTerms};
 pub use term::Term;
 pub use terms::{
-    Density, DensitySum, Gradient, Repulsion, RepulsionSum, TargetGradient, Variation, VariationSum,
+    Averaged, AveragedSum, Density, DensitySum, Gradient, Repulsion, RepulsionSum, SizedRepulsion,
+    SizedRepulsionSum, TargetGradient, Variation, VariationSum,
 };
 pub use walk::{shells, walk};

@@ -6,7 +6,9 @@ use sphpack_neighbors::{Blocks, SHELLS};
 
 use crate::gathered::Gathered;
 use crate::term::Term;
-use crate::terms::{Density, Gradient, Repulsion, TargetGradient, Variation, VariationSum};
+use crate::terms::{
+    Averaged, Density, Gradient, Repulsion, SizedRepulsion, TargetGradient, Variation, VariationSum,
+};
 use crate::walk::{shells, walk};
 
 /// What acts between pairs, chosen at run time.
@@ -66,6 +68,12 @@ pub type PackingTerms = (Density, Gradient, Repulsion);
 /// What [`PackingSums::sum`] finds for a target.
 pub type PackingSum = <PackingTerms as Term>::Sum;
 
+/// The terms of [`PackingSums::sum_sized`].
+pub type SizedTerms = (Averaged, SizedRepulsion);
+
+/// What [`PackingSums::sum_sized`] finds for a target.
+pub type SizedSum = <SizedTerms as Term>::Sum;
+
 impl PackingSums<'_> {
     /// Density, kernel gradient sum and repulsion of every target, `D` of 2 or 3. One entry of `out` per target slot. No
     /// allocation, parallel.
@@ -109,6 +117,29 @@ impl PackingSums<'_> {
             vary_in_space(self, out);
         }
     }
+
+    /// Density by whichever h, and repulsion, between particles of many sizes. Otherwise as [`PackingSums::sum`].
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are targets.
+    pub fn sum_sized<const D: usize>(self, terms: SizedTerms, out: &mut [SizedSum]) {
+        const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
+        if D == 2 {
+            sized_in_plane(self, &terms, out);
+        } else {
+            sized_in_space(self, &terms, out);
+        }
+    }
+}
+
+fn sized_in_plane(of: PackingSums<'_>, terms: &SizedTerms, out: &mut [SizedSum]) {
+    let work = Work { of, terms, out };
+    of.shape.with::<2, _>(of.length, work);
+}
+
+fn sized_in_space(of: PackingSums<'_>, terms: &SizedTerms, out: &mut [SizedSum]) {
+    let work = Work { of, terms, out };
+    of.shape.with::<3, _>(of.length, work);
 }
 
 fn sum_in_plane(of: PackingSums<'_>, terms: &PackingTerms, out: &mut [PackingSum]) {

@@ -39,6 +39,7 @@ pub fn walk<K: Kernel<D>, T: Term, const D: usize>(
     let h = kernel.smoothing_length() * unit;
     let value = K::Profile::SIGMA / h.powi(D as i32);
     let run = Run {
+        own_part: term.own_part(),
         term: &term.in_unit(unit),
         gathered,
         smoothing_length: h,
@@ -55,6 +56,8 @@ pub fn walk<K: Kernel<D>, T: Term, const D: usize>(
 /// What is the same for all blocks, in the loop's unit of length.
 struct Run<'a, T> {
     term: &'a T,
+    /// Of the target's h in a mean.
+    own_part: f64,
     gathered: &'a Gathered,
     /// Of all, where sources have no own.
     smoothing_length: f64,
@@ -214,11 +217,20 @@ impl<'a, S: Simd, T: Term, const D: usize> Walk<'a, S, T, D> {
                 theirs = relative(values::<S, P, PIECE, D>(r, of), self.size, of, D);
             }
             if T::MEAN {
-                let mut of = slots.load(simd, |slot| sizes[slot][0]);
-                for j in 0..GROUP {
-                    of[j] = f64x8::splat(simd, 2.0) / (self.size + of[j]);
-                }
-                let of = Several(of);
+                let of = if self.run.own_part == 1.0 {
+                    Several([self.inverse; GROUP])
+                } else if self.run.own_part == 0.0 {
+                    Several(slots.load(simd, |slot| sizes[slot][1]))
+                } else {
+                    let mut square = slots.load(simd, |slot| sizes[slot][0]);
+                    let part = f64x8::splat(simd, self.run.own_part);
+                    let rest = f64x8::splat(simd, 1.0 - self.run.own_part);
+                    for j in 0..GROUP {
+                        let theirs = rest * square[j] * square[j];
+                        square[j] = (part * self.size).mul_add(self.size, theirs);
+                    }
+                    roots(Several(square)).1
+                };
                 mean = relative(values::<S, P, PIECE, D>(r, of), self.size, of, D);
             }
         }

@@ -32,6 +32,7 @@ mod shipped;
 mod speed;
 mod tasks;
 mod tidy;
+mod variable;
 mod workspace;
 
 use std::process::ExitCode;

@@ -6,7 +6,7 @@ use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
     balanced, bodies, ci, compare, corpora, draw, fuzz, lattices, reliability, reproduction,
-    round_trip, speed, tidy,
+    round_trip, speed, tidy, variable,
 };
 
 /// What is left to do once the arguments are read.
@@ -24,7 +24,7 @@ pub(crate) struct Task {
 }
 
 /// In the order of the usage; of one name the forms with flags come first.
-pub(crate) const TASKS: [Task; 18] = [
+pub(crate) const TASKS: [Task; 19] = [
     Task {
         name: "ci",
         known: &[],
@@ -151,6 +151,15 @@ pub(crate) const TASKS: [Task; 18] = [
         read: |given| {
             let selection = Selection::of(given)?;
             Ok(Box::new(move || balanced::run(&selection)))
+        },
+    },
+    Task {
+        name: "variable",
+        known: Selection::KNOWN,
+        about: &["variable spacing, row by row, against its bars (docs/variable.md with --write)"],
+        read: |given| {
+            let selection = Selection::of(given)?;
+            Ok(Box::new(move || variable::run(&selection)))
         },
     },
     Task {

@@ -1,6 +1,6 @@
 //! Γ and the residual of some particles, summed anew by code that shares nothing with what computed them but the kernel.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use sphpack_kernels::{Kernel, WithKernel};
 use sphpack_neighbors::{Domain, point};
@@ -16,57 +16,78 @@ const SOME: usize = 500;
 const SAME: f64 = 1e-9;
 
 /// The first particle whose sums over what is near are not those that it has: its place in the list, and what differs.
-/// O(n) for n particles, and the neighbours of some [`SOME`].
+/// O(n) for n particles and every octave of their sizes, and the neighbours of some [`SOME`].
 pub(super) fn differs<const D: usize>(solution: &Solution<D>) -> Option<(usize, String)> {
     let fields = &solution.fields;
-    (fields.kernel).with(fields.sizes.smallest_smoothing_length(), Sums { solution })
+    let particles = &solution.packed.particles;
+    let judged: Vec<usize> = (0..particles.len())
+        .filter(|&i| particles.kind[i] != Kind::Frozen)
+        .collect();
+    let every = judged.len().div_ceil(SOME).max(1);
+    let mut octaves: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for i in judged.into_iter().step_by(every) {
+        let octave = fields.sizes.over_finest(i).log2().ceil() as u32;
+        octaves.entry(octave).or_default().push(i);
+    }
+    octaves.into_values().find_map(|some| {
+        let largest = some
+            .iter()
+            .fold(0.0, |h: f64, &i| h.max(fields.sizes.smoothing_length(i)));
+        let reach = fields.kernel.support_over_h() * largest;
+        let bins = Bins::new(&solution.packed.domain, reach, &particles.position);
+        some.into_iter().find_map(|i| {
+            let one = One {
+                solution,
+                bins: &bins,
+                i,
+            };
+            fields.kernel.with(fields.sizes.smoothing_length(i), one)
+        })
+    })
 }
 
-struct Sums<'a, const D: usize> {
+/// The sums of one particle.
+struct One<'a, const D: usize> {
     solution: &'a Solution<D>,
+    bins: &'a Bins<'a, D>,
+    i: usize,
 }
 
-impl<const D: usize> WithKernel<D> for Sums<'_, D> {
+impl<const D: usize> WithKernel<D> for One<'_, D> {
     type Output = Option<(usize, String)>;
 
     fn call<K: Kernel<D>>(self, kernel: K) -> Self::Output {
-        let Self { solution } = self;
+        let Self { solution, bins, i } = self;
         let (packed, fields) = (&solution.packed, &solution.fields);
         let particles = &packed.particles;
-        let bins = Bins::new(&packed.domain, kernel.support(), &particles.position);
-        let judged: Vec<usize> = (0..particles.len())
-            .filter(|&i| particles.kind[i] != Kind::Frozen)
-            .collect();
-        let every = judged.len().div_ceil(SOME).max(1);
-        judged.into_iter().step_by(every).find_map(|i| {
-            let place = particles.position[i];
-            let (mut gamma, mut gradient) = (0.0, [0.0; D]);
-            for j in bins.near(place) {
-                let apart = bins.apart(place, particles.position[j]);
-                let r_squared = point::dot(apart, apart);
-                if r_squared < kernel.support() * kernel.support() {
-                    let (value, slope_over_r) = kernel.value_and_slope_over_r(r_squared);
-                    gamma += particles.volume[j] * value;
-                    gradient =
-                        point::add_scaled(gradient, particles.volume[j] * slope_over_r, apart);
-                }
+        let place = particles.position[i];
+        let (mut gamma, mut gradient) = (0.0, [0.0; D]);
+        for j in bins.near(place) {
+            let apart = bins.apart(place, particles.position[j]);
+            let r_squared = point::dot(apart, apart);
+            if r_squared < kernel.support() * kernel.support() {
+                let (value, slope_over_r) = kernel.value_and_slope_over_r(r_squared);
+                gamma += particles.volume[j] * value;
+                gradient = point::add_scaled(gradient, particles.volume[j] * slope_over_r, apart);
             }
-            let far = place.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
-            let slack = SAME * (1.0 + 1e-3 * far / packed.spacing);
-            let h = fields.sizes.smallest_smoothing_length();
-            let [own, anew] = [fields.gradient[i], gradient].map(|g| h * point::norm(g));
-            let words = |what: &str, own: f64, anew: f64| {
-                let id = particles.id[i];
-                format!("{what} of particle {id} is {own:.9}, but the sum over its neighbours gives {anew:.9}")
-            };
-            if (fields.gamma[i] - gamma).abs() > slack * gamma {
-                Some((i, words("gamma", fields.gamma[i], gamma)))
-            } else if (own - anew).abs() > slack * (1.0 + anew) {
-                Some((i, words("residual", own, anew)))
-            } else {
-                None
-            }
-        })
+        }
+        let far = place.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
+        let slack = SAME * (1.0 + 1e-3 * far / packed.spacing);
+        let h = kernel.smoothing_length();
+        let [own, anew] = [fields.gradient[i], gradient].map(|g| h * point::norm(g));
+        let words = |what: &str, own: f64, anew: f64| {
+            let id = particles.id[i];
+            format!(
+                "{what} of particle {id} is {own:.9}, but the sum over its neighbours gives {anew:.9}"
+            )
+        };
+        if (fields.gamma[i] - gamma).abs() > slack * gamma {
+            Some((i, words("gamma", fields.gamma[i], gamma)))
+        } else if (own - anew).abs() > slack * (1.0 + anew) {
+            Some((i, words("residual", own, anew)))
+        } else {
+            None
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The audit of somebody's particles: what can be said without knowing what was asked for.
 
 use sphpack_neighbors::{Bounds, Domain, point};
-use sphpack_packing::closest_pair::CROWDED;
+use sphpack_packing::closest_pair::{CROWDED, NEIGHBORS_IN_SIZES};
 use sphpack_packing::{ClosestPair, Kind};
 
 use super::Audit;
@@ -64,9 +64,17 @@ fn pair<const D: usize>(cloud: &Cloud, spacing: f64) -> (f64, f64, [f64; 3]) {
         periodic: [false; D],
     };
     let is_asked = |i: usize| cloud.kind[i] != Kind::Frozen;
-    let pair = ClosestPair::of(&domain, &positions, &cloud.volume, is_asked, 2.0 * spacing);
+    let likely = 2.0 * spacing;
+    let (pair, distance) = if cloud.sizes.is_some() {
+        let sizes = NEIGHBORS_IN_SIZES;
+        let pair =
+            ClosestPair::by_size(&domain, &positions, &cloud.volume, is_asked, likely, sizes);
+        (pair, pair.crowded)
+    } else {
+        let pair = ClosestPair::of(&domain, &positions, &cloud.volume, is_asked, likely);
+        (pair, pair.distance / spacing)
+    };
     let place = point::of_slice(&pair.place);
-    let distance = pair.distance / spacing;
     (
         if distance.is_finite() { distance } else { 0.0 },
         pair.crowded,

@@ -164,7 +164,7 @@ pub(super) struct CheckArguments {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Particles: text (.csv, .txt, .dat) with columns x,y[,z] and optionally volume and kind, parted by commas, semicolons, tabs or spaces, their names in a header or in a comment as numpy.savetxt writes it (two or three columns need none); a NPZ file with arrays of these names; a NPY file with an array of shape (n, 2) or (n, 3), or of records; a PLY file with properties of these names; or a VTU, VTP or VTK (legacy) file. Without volumes m / rho is taken (or mass / density), without these spacing^dimension. Rows whose kind is \"frozen\" support their neighbours and are not measured themselves; where no row is frozen, particles within a support radius of the edge of their bounding box are left out of the figures.
+Particles: text (.csv, .txt, .dat) with columns x,y[,z] and optionally volume and kind, parted by commas, semicolons, tabs or spaces, their names in a header or in a comment as numpy.savetxt writes it (two or three columns need none); a NPZ file with arrays of these names; a NPY file with an array of shape (n, 2) or (n, 3), or of records; a PLY file with properties of these names; or a VTU, VTP or VTK (legacy) file. Without volumes m / rho is taken (or mass / density), without these spacing^dimension. Where the columns spacing or h differ from row to row, each particle is measured by its own. Rows whose kind is \"frozen\" support their neighbours and are not measured themselves; where no row is frozen, particles within a support radius of the edge of their bounding box are left out of the figures.
 
 Examples:
   sphpack quality particles.csv --spacing 0.1
@@ -172,13 +172,13 @@ Examples:
 pub(super) struct QualityArguments {
     /// The particles (.csv, .txt, .dat, .npz, .npy, .ply, .vtu, .vtp, .vtk)
     pub(super) particles: PathBuf,
-    /// Particle spacing, the root of a particle's volume
+    /// Particle spacing, the root of a particle's volume; the finest where they differ
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     pub(super) spacing: f64,
     /// The kernel that measures
     #[arg(long, value_name = "NAME", default_value = "quintic")]
     pub(super) kernel: String,
-    /// Its smoothing length over the spacing [default: by the file's column h, where that is one length; else 1.2]
+    /// Its smoothing length over the spacing [default: by the file's column h; else 1.2]
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub(super) h_over_spacing: Option<f64>,
     /// Print JSON

@@ -162,14 +162,17 @@ fn dry_run(scene: &Scene, opened: Opened, is_quiet: bool) -> Result<u8, Error> {
         }
     }
     let estimate = plan.estimate;
-    let evaluations = scene.packing.typical_evaluations();
+    let evaluations = scene.typical_evaluations();
     let slowness = pace::slowness();
     let each = slowness * estimate.seconds_per_evaluation;
     let work = slowness * estimate.seconds_beside + evaluations * each;
     let seconds = plan.building_seconds + work / rayon::current_num_threads() as f64;
     let read = summary::read(&plan.read);
+    let fewer = plan.times_fewer.map_or_else(String::new, |times| {
+        format!("             {times:.1} times fewer than at the finest spacing everywhere\n")
+    });
     say(&format!(
-        "{read}  particles  {} in the {}-D box, about {} frozen around it\n  neighbors  about {:.0} for each particle\n  memory     about {} of {} that are free\n  time       about {} on {} threads, {evaluations} evaluations of what moves among it, each about {}; to a factor of two\nnothing was written (--dry-run)\n",
+        "{read}  particles  {} in the {}-D box, about {} frozen around it\n{fewer}  neighbors  about {:.0} for each particle\n  memory     about {} of {} that are free\n  time       about {} on {} threads, {evaluations} evaluations of what moves among it, each about {}; to a factor of two\nnothing was written (--dry-run)\n",
         crate::picture::grouped(estimate.particles as usize),
         plan.dimension,
         crate::picture::grouped(estimate.frozen as usize),

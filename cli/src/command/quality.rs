@@ -6,14 +6,11 @@ use super::arguments::QualityArguments;
 use super::{say, threads};
 use crate::Error;
 use crate::audit::Audit;
-use crate::cloud::{Cloud, CloudQuality};
+use crate::cloud::{Cloud, CloudQuality, H_OVER_SPACING};
 use crate::error::{DONE, NOT_CONVERGED};
 use crate::picture::grouped;
 use crate::scene::kernel_by_name;
 use sphpack_packing::{DensityQuality, ResidualQuality};
-
-/// Where neither the command line nor the file says.
-const H_OVER_SPACING: f64 = 1.2;
 
 /// What a file's own smoothing length may come to; beyond, it is in other units, or something else.
 const USUAL_H_OVER_SPACING: std::ops::RangeInclusive<f64> = 0.5..=4.0;
@@ -54,7 +51,9 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
         .map_err(|message| Error::Usage(format!("--kernel: {message}")))?;
     threads::start(None)?;
     let cloud = Cloud::read(&arguments.particles, arguments.spacing)?;
+    let of_each = cloud.sizes.as_ref().and_then(|sizes| sizes.h_over_spacing);
     let own = (cloud.smoothing_length.map(|h| h / arguments.spacing))
+        .or(of_each)
         .filter(|ratio| USUAL_H_OVER_SPACING.contains(ratio));
     let h_over_spacing = (arguments.h_over_spacing).or(own).unwrap_or(H_OVER_SPACING);
     let measured = cloud.measure(arguments.spacing, kernel, h_over_spacing)?;

@@ -39,6 +39,17 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
         ),
         Some(duration(report.seconds.seeding)),
     );
+    if let Some(resolution) = &report.resolution {
+        let words = format!(
+            "spacings {} … {}, neighbours' differ by {:.1} %, at most {:.1} %; {:.1} times fewer than at the finest",
+            short(resolution.finest),
+            short(resolution.coarsest),
+            100.0 * (resolution.growth_mean - 1.0),
+            100.0 * (resolution.growth_max - 1.0),
+            resolution.times_fewer
+        );
+        line(&mut text, "", &words, None);
+    }
     line(
         &mut text,
         "settling",

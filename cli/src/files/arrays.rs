@@ -141,7 +141,7 @@ pub(super) fn codes(table: &Table) -> [Array<'_>; 3] {
     ]
 }
 
-/// `volume` to `nz`, `nz` only in 3-D; `pressure` and `density` where the table has them.
+/// `volume` to `nz`, `nz` only in 3-D; `spacing` and `h`, `pressure` and `density` where the table has them.
 pub(super) fn measures(table: &Table) -> Vec<Array<'_>> {
     let mut all = vec![
         Array::float("volume", |i| table.volume[i]),
@@ -153,6 +153,10 @@ pub(super) fn measures(table: &Table) -> Vec<Array<'_>> {
     ];
     if table.dimension == 3 {
         all.push(Array::float("nz", |i| table.normal(i)[2]));
+    }
+    if !table.spacing.is_empty() {
+        all.push(Array::float("spacing", |i| table.spacing[i]));
+        all.push(Array::float("h", |i| table.smoothing_length[i]));
     }
     if !table.pressure.is_empty() {
         all.push(Array::float("pressure", |i| table.pressure[i]));

@@ -18,6 +18,8 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     super::validate::check(table)?;
     let space = table.dimension == 3;
     let has_pressure = !table.pressure.is_empty();
+    let has_sizes = !table.spacing.is_empty();
+    let sizes = if has_sizes { ",spacing,h" } else { "" };
     let more = if has_pressure {
         ",pressure,density"
     } else {
@@ -26,7 +28,7 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     let (z, nz) = if space { (",z", ",nz") } else { ("", "") };
     writeln!(
         to,
-        "id,x,y{z},kind,side,body,volume,mass,gamma,residual,nx,ny{nz}{more}"
+        "id,x,y{z},kind,side,body,volume,mass,gamma,residual,nx,ny{nz}{sizes}{more}"
     )?;
     let names: Vec<String> = table.bodies.iter().map(|name| quoted(name)).collect();
     for i in 0..table.len() {
@@ -51,6 +53,10 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
         )?;
         if space {
             write!(to, ",{nz}")?;
+        }
+        if has_sizes {
+            let [spacing, h] = [table.spacing[i], table.smoothing_length[i]].map(Short);
+            write!(to, ",{spacing},{h}")?;
         }
         if has_pressure {
             write!(

@@ -82,6 +82,10 @@ fn agree(columns: &Columns, table: &Table) -> Result<(), TestCaseError> {
         expected.push(("pressure", table.pressure.clone()));
         expected.push(("density", table.density.clone()));
     }
+    if !table.spacing.is_empty() {
+        expected.push(("spacing", table.spacing.clone()));
+        expected.push(("h", table.smoothing_length.clone()));
+    }
     for (name, values) in expected {
         prop_assert_eq!(bits(&columns.numbers[name]), bits(&values), "{}", name);
     }
@@ -162,6 +166,8 @@ pub(super) fn one_particle(dimension: usize) -> Table {
         normals: [(u32::MAX, flat([0.6, -0.0, 0.8]))].into(),
         pressure: vec![-1e-9],
         density: vec![1e3],
+        spacing: vec![1e-3],
+        smoothing_length: vec![1.2e-3],
     }
 }
 

@@ -76,9 +76,14 @@ pub(super) fn title(subject: &Subject<'_>) -> String {
     } else {
         ""
     };
+    let coarsest = (subject.table.spacing.iter()).fold(subject.spacing, |most, &s| most.max(s));
+    let spacing = if coarsest > subject.spacing {
+        format!("{} … {coarsest:.3}", subject.spacing)
+    } else {
+        subject.spacing.to_string()
+    };
     format!(
-        "{name}: ∆s = {}, {} particles, max |Γ − 1| = {:.2} %{unfinished}",
-        subject.spacing,
+        "{name}: ∆s = {spacing}, {} particles, max |Γ − 1| = {:.2} %{unfinished}",
         grouped(inside),
         100.0 * subject.table.linf()
     )
@@ -127,7 +132,7 @@ pub(super) fn sheet(subject: &Subject<'_>) -> Sheet {
             sheet.marks.push(particle(
                 rank,
                 view.place([x, y]),
-                pixels,
+                zoom * table.spacing_of(i, subject.spacing),
                 scale.colour(table.gamma[i]),
                 rim,
             ));

@@ -107,10 +107,10 @@ pub(super) fn add(
     };
     let table = subject.table;
     // Particles of a slice overlap: it is a spacing thick, and a lattice has several layers in that.
-    let pixels = 0.85 * subject.spacing * zoom;
+    let own = |i: usize| table.spacing_of(i, subject.spacing);
     let is_near = |i: usize| {
         let p = table.position[i];
-        (p[cut.axis] - cut.at).abs() < 0.5 * subject.spacing
+        (p[cut.axis] - cut.at).abs() < 0.5 * own(i)
             && (low[0]..=high[0]).contains(&p[h])
             && (low[1]..=high[1]).contains(&p[v])
     };
@@ -125,7 +125,7 @@ pub(super) fn add(
             sheet.marks.push(particle(
                 rank,
                 view.place([p[h], p[v]]),
-                pixels,
+                0.85 * own(i) * zoom,
                 scale.colour(table.gamma[i]),
                 rim,
             ));

@@ -94,7 +94,7 @@ pub(super) fn check_body(body: &BodySpec, index: usize) -> Checked {
     Ok(())
 }
 
-fn check_shape(shape: &Shape, called: &str, at: &[Key]) -> Checked {
+pub(super) fn check_shape(shape: &Shape, called: &str, at: &[Key]) -> Checked {
     let within = |name| {
         let mut keys = at.to_vec();
         keys.extend([Key::Name(shape.name()), Key::Name(name)]);

@@ -3,11 +3,13 @@
 mod check;
 mod check_body;
 mod fault;
+mod fluid;
 mod method;
 mod named;
 mod nearest;
 mod options;
 mod parse;
+mod refinement;
 mod shape;
 mod template;
 #[cfg(test)]
@@ -21,11 +23,13 @@ use sphpack_kernels::KernelKind;
 use sphpack_packing::{Band, Complex, Hybrid, Kind, Lattice, MinimiserKind, Settling};
 
 pub use fault::Fault;
+pub use fluid::{FluidSpec, Hydrostatic};
 pub use method::{Method, UnknownMethod};
 pub use named::Inset;
 pub(crate) use named::kernel_by_name;
 pub(crate) use nearest::advice;
 pub use options::{AgitatedOptions, AgitatorsAre, HybridOptions};
+pub use refinement::{RefinementSpec, RegionSpec};
 pub use shape::{SHAPES, Shape, ShapeInfo};
 pub use template::TEMPLATE;
 
@@ -39,8 +43,11 @@ pub struct Scene {
     /// The scene's file; other paths are relative to its folder.
     #[serde(skip)]
     pub path: PathBuf,
-    /// ∆s, scene units.
+    /// ∆s, scene units; with `refinement`, on the bodies' surfaces.
     pub spacing: f64,
+    /// How particles grow away from there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refinement: Option<RefinementSpec>,
     /// The box.
     pub domain: DomainSpec,
     /// The bodies.
@@ -128,6 +135,9 @@ pub struct BodySpec {
     /// How many particles parts get that are thinner than ∆s.
     #[serde(default)]
     pub thin: Thin,
+    /// With `refinement`, the spacing at its surface, scene units; the scene's where left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<f64>,
 }
 
 /// A rotation in space.
@@ -138,44 +148,6 @@ pub struct Rotation {
     pub axis: Vec<f64>,
     /// Angle, right-hand rule.
     pub degrees: f64,
-}
-
-/// What is between the bodies.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct FluidSpec {
-    /// Physical density.
-    pub density: f64,
-    /// Whether fluid particles are written.
-    pub fill: bool,
-    /// Gravity and state equation, for columns of pressure and density of the fluid at rest (Bouscasse et al., §III).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hydrostatic: Option<Hydrostatic>,
-}
-
-/// Fluid at rest under gravity.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Hydrostatic {
-    /// Acceleration, scene units over time squared, one entry per axis.
-    pub gravity: Vec<f64>,
-    /// Height of the free surface above the origin, against gravity, scene units.
-    pub level: f64,
-    /// Speed of sound c of the state equation p = ρ₀c²/γ ((ρ/ρ₀)^γ − 1), in the units of gravity.
-    pub sound_speed: f64,
-    /// Its exponent γ.
-    #[serde(default = "seven")]
-    pub exponent: f64,
-}
-
-impl Default for FluidSpec {
-    fn default() -> Self {
-        Self {
-            density: 1.0,
-            fill: true,
-            hydrostatic: None,
-        }
-    }
 }
 
 /// How the free particles are left at the end, by methods that minimise.
@@ -452,8 +424,10 @@ impl Scene {
                 density: 1.0,
                 surface: Inset::default(),
                 thin: Thin::default(),
+                spacing: None,
             }],
             name,
+            refinement: None,
             fluid: FluidSpec::default(),
             packing: PackingSpec::default(),
             quality: QualitySpec::default(),
@@ -487,9 +461,4 @@ impl Scene {
 
 fn one() -> f64 {
     1.0
-}
-
-/// Of water.
-fn seven() -> f64 {
-    7.0
 }

@@ -7,6 +7,12 @@ pub const TEMPLATE: &str = r#"# A scene for sphpack: bodies in a box, to be fill
 
 spacing = 0.1                    # the particle spacing: the square (cube) root of a particle's area (volume)
 
+# [refinement]                   # particles that grow away from the bodies (no default); spacing is then on their surfaces
+# coarsest = 0.4                 # far away
+# finest = 0.01                  # no finer than this, whatever bodies and regions say (no default)
+# growth = 1.08                  # ratio of neighbouring particles' spacings, at most: 1.02 to 1.3
+# region = [{ shape = { box = { min = [1.0, -0.5], max = [2.0, 0.5] } }, spacing = 0.1 }]   # any shapes or files
+
 [domain]                         # the box; two numbers for 2-D, three for 3-D
 min = [-2.0, -2.0]
 max = [2.0, 2.0]
@@ -32,6 +38,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # density = 1.0                  # mass of a particle = density x volume
 # surface = "inset"              # boundary particles half a spacing inside ("inset"), on the surface ("exact"),
                                  # or a number: how far inside, in spacings
+# spacing = 0.1                  # with [refinement]: at this body's surface (the scene's)
 # thin = "mass"                  # parts thinner than a spacing: as many particles as their mass asks for, or one per
                                  # spacing^(D-1) whatever they weigh ("watertight")
 

@@ -56,6 +56,82 @@ fn defaults_are_filled_in() {
 }
 
 #[test]
+fn the_template_refines() {
+    let with = |more: &[&str]| -> String {
+        TEMPLATE
+            .lines()
+            .map(|line| {
+                let is_wanted = more.iter().any(|start| line.starts_with(start));
+                let line = if is_wanted { &line[2..] } else { line };
+                line.to_owned() + "\n"
+            })
+            .collect()
+    };
+    let keys = [
+        "# [refinement",
+        "# coarsest",
+        "# finest",
+        "# growth",
+        "# region",
+    ];
+    let scene = parse(&with(&keys));
+    let refinement = scene.refinement.as_ref().expect("a refinement");
+    assert_eq!((refinement.growth, refinement.region.len()), (1.08, 1));
+    assert_eq!(scene.no_finer(0.001), 0.01);
+    // What particles of many sizes do not have is refused by name.
+    for (line, word) in [
+        ("# surroundings", "surroundings"),
+        ("# thin = ", ""),
+        ("# spacing = ", ""),
+    ] {
+        let text = with(&[&keys[..], &[line]].concat());
+        let parsed = Scene::parse(&text, "s.toml");
+        match (word, parsed) {
+            ("", parsed) => assert!(parsed.is_ok(), "{parsed:?}"),
+            (word, Err(error)) => assert!(error.to_string().contains(word), "{error}"),
+            (_, Ok(_)) => panic!("{line} is taken"),
+        }
+    }
+    for (from, to, words) in [
+        ("growth = 1.08", "growth = 1.5", "between 1.02 and 1.3"),
+        (
+            "coarsest = 0.4",
+            "coarsest = 0.05",
+            "coarser than refinement.coarsest",
+        ),
+        (
+            "# method = \"balanced\"",
+            "method = \"hybrid\"",
+            "particles of one size",
+        ),
+        (
+            "# finish = \"even\"",
+            "finish = \"both\"",
+            "particles of one size",
+        ),
+        (
+            "# masses = \"equal\"",
+            "masses = \"corrected\"",
+            "particles of one size",
+        ),
+        (
+            "# frozen = \"lattice\"",
+            "frozen = \"square\"",
+            "particles of one size",
+        ),
+    ] {
+        let text = with(&keys).replacen(from, to, 1);
+        let error = Scene::parse(&text, "s.toml").expect_err(to).to_string();
+        assert!(error.contains(words), "{to}: {error}");
+    }
+    let text = with(&["# spacing = 0.1 "]);
+    let error = Scene::parse(&text, "s.toml")
+        .expect_err("no table")
+        .to_string();
+    assert!(error.contains("[refinement]"), "{error}");
+}
+
+#[test]
 fn the_template_packs_and_knows_every_key() {
     assert_eq!(parse(TEMPLATE).body.len(), 1);
     // Every key that a serialised scene has stands in the template.
@@ -81,6 +157,13 @@ fn the_template_packs_and_knows_every_key() {
                 "# Keys",
                 "# Other",
                 "# A ",
+                // Not beside the surroundings of a lattice: tried by itself below.
+                "# [refinement",
+                "# coarsest",
+                "# finest",
+                "# growth",
+                "# region",
+                "# spacing",
             ]
             .iter()
             .any(|start| line.starts_with(start))

@@ -10,6 +10,7 @@ mod dirty_formats;
 mod dirty_meshes;
 mod file_sets;
 mod good_runs;
+mod graded;
 mod hydrostatics;
 mod interrupts;
 mod limits;

@@ -100,7 +100,7 @@ in_plane_and_space! {
     Coupled: usual;
     Hybrid: usual;
     // Fluid goes to the true surfaces: none is moved inward.
-    Ppa: |_, _, problem: &Problem<_>| problem.check();
+    Ppa: |_, _, problem: &Problem<_>| problem.check_uniform();
     Relaxation: usual;
     Standard: usual;
     Triangulated: usual;

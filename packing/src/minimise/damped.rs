@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Energy, Minimiser, Step, vectors};
+use super::{Minimiser, Potential, Step, vectors};
 use crate::state::{Damaged, State};
 use sphpack_neighbors::point;
 
@@ -26,7 +26,7 @@ pub(crate) fn time_step(h: f64, zeta: f64, pressure: f64, fastest: f64) -> f64 {
 }
 
 impl<const D: usize> Minimiser<D> for Damped<D> {
-    fn step(&mut self, energy: &mut Energy<'_, D>) -> Step {
+    fn step(&mut self, energy: &mut dyn Potential<D>) -> Step {
         let h = energy.smoothing_length();
         let zeta = DAMPING / energy.spacing();
         self.velocity.resize(energy.len(), [0.0; D]);

@@ -6,9 +6,9 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sphpack_neighbors::point;
 
-use super::GradientPenalty;
 use super::movable::Movable;
 use super::vectors;
+use super::{GradientPenalty, Potential};
 use crate::forces::{Forces, Levelling};
 use crate::packed::ParticleSurface;
 use crate::particles::Particles;
@@ -71,26 +71,6 @@ impl<'a, const D: usize> Energy<'a, D> {
         }
     }
 
-    /// ∆s, or the least, scene units.
-    pub fn spacing(&self) -> f64 {
-        self.spacing
-    }
-
-    /// Smoothing length of the kernel, scene units.
-    pub fn smoothing_length(&self) -> f64 {
-        self.smoothing_length
-    }
-
-    /// Number of mobile particles: the length of every vector here.
-    pub fn len(&self) -> usize {
-        self.movable.mobile.len()
-    }
-
-    /// Whether nothing can move.
-    pub fn is_empty(&self) -> bool {
-        self.movable.mobile.is_empty()
-    }
-
     /// Indices of the mobile particles, ascending.
     pub fn mobile(&self) -> &[u32] {
         &self.movable.mobile
@@ -141,18 +121,6 @@ impl<'a, const D: usize> Energy<'a, D> {
         self.forces.evaluations()
     }
 
-    /// E where the particles are.
-    pub fn value(&mut self) -> f64 {
-        self.evaluate();
-        self.value
-    }
-
-    /// −∇E of every mobile particle, along the surface for boundary particles.
-    pub fn force(&mut self) -> &[[f64; D]] {
-        self.evaluate();
-        &self.force
-    }
-
     /// The largest force, times h: dimensionless, what minimisers bring to zero.
     pub fn residual(&mut self) -> f64 {
         self.evaluate();
@@ -183,17 +151,6 @@ impl<'a, const D: usize> Energy<'a, D> {
         self.movable.keep_sides(bodies, &domain);
     }
 
-    /// Writes the coordinates of the mobile particles.
-    pub fn places(&self, out: &mut Vec<[f64; D]>) {
-        self.movable.places(out);
-    }
-
-    /// Puts the mobile particles at `from + step · direction`, boundary ones onto their surface from there.
-    pub fn move_to(&mut self, from: &[[f64; D]], step: f64, direction: &[[f64; D]]) {
-        self.movable.move_to(from, step, direction);
-        self.is_stale = true;
-    }
-
     /// Changes the repulsion.
     pub fn set_repulsion(&mut self, repulsion: Repulsion) {
         self.forces.repulsion = repulsion;
@@ -209,11 +166,6 @@ impl<'a, const D: usize> Energy<'a, D> {
     fn mark_changed(&mut self) {
         self.is_stale = true;
         self.is_changed = true;
-    }
-
-    /// `v` of every mobile particle without its part along the normal of the surface that it sits on.
-    pub fn make_tangential(&self, v: &mut [[f64; D]]) {
-        self.movable.make_tangential(v);
     }
 
     /// Holds boundary particles where they are from now on.
@@ -269,17 +221,44 @@ impl<'a, const D: usize> Energy<'a, D> {
                     movable.tangential(i, force)
                 };
             });
-        if let Some(over) = particles.sizes.relative() {
-            for (force, &i) in self.force.iter_mut().zip(&movable.mobile) {
-                *force = point::scale(*force, over[i as usize]);
-            }
-        }
-        // What holds a particle takes the force that pushes it there.
-        for (place, away) in movable.held() {
-            if point::dot(self.force[place], away) < 0.0 {
-                self.force[place] = point::reject(self.force[place], away);
-            }
-        }
+        movable.constrain(&mut self.force);
+    }
+}
+
+impl<const D: usize> Potential<D> for Energy<'_, D> {
+    fn len(&self) -> usize {
+        self.movable.mobile.len()
+    }
+
+    fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    fn smoothing_length(&self) -> f64 {
+        self.smoothing_length
+    }
+
+    fn value(&mut self) -> f64 {
+        self.evaluate();
+        self.value
+    }
+
+    fn force(&mut self) -> &[[f64; D]] {
+        self.evaluate();
+        &self.force
+    }
+
+    fn places(&self, out: &mut Vec<[f64; D]>) {
+        self.movable.places(out);
+    }
+
+    fn move_to(&mut self, from: &[[f64; D]], step: f64, direction: &[[f64; D]]) {
+        self.movable.move_to(from, step, direction);
+        self.is_stale = true;
+    }
+
+    fn make_tangential(&self, v: &mut [[f64; D]]) {
+        self.movable.make_tangential(v);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Energy, Minimiser, Step, vectors};
+use super::{Minimiser, Potential, Step, vectors};
 use crate::state::{Damaged, State, Value};
 use sphpack_neighbors::fire::Fire as Engine;
 use sphpack_neighbors::point;
@@ -37,7 +37,7 @@ impl<const D: usize> Default for Fire<D> {
 }
 
 impl<const D: usize> Minimiser<D> for Fire<D> {
-    fn step(&mut self, energy: &mut Energy<'_, D>) -> Step {
+    fn step(&mut self, energy: &mut dyn Potential<D>) -> Step {
         self.velocity.resize(energy.len(), [0.0; D]);
         let (h, limit) = (
             energy.smoothing_length(),
@@ -65,7 +65,7 @@ impl<const D: usize> Minimiser<D> for Fire<D> {
             }
         }
         energy.make_tangential(&mut self.velocity);
-        let longest = dt * vectors::longest(&self.velocity);
+        let longest = dt * energy.longest(&self.velocity);
         if longest > limit {
             vectors::scale(&mut self.velocity, limit / longest);
         }

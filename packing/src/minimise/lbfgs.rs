@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::history::{History, Taken};
-use super::{Energy, Minimiser, Step, vectors};
+use super::{Minimiser, Potential, Step, vectors};
 use crate::Damaged;
 
 /// Limited-memory BFGS (Nocedal & Wright, Numerical Optimization, algorithm 7.4). Steps are capped, their directions
@@ -48,14 +48,14 @@ impl<const D: usize> Default for Lbfgs<D> {
 }
 
 impl<const D: usize> Lbfgs<D> {
-    fn find_direction(&mut self, energy: &Energy<'_, D>) {
+    fn find_direction(&mut self, energy: &dyn Potential<D>) {
         let first = FIRST_OVER_H2 * energy.smoothing_length().powi(2);
         self.history
             .direction(&self.force, first, &mut self.direction);
         energy.make_tangential(&mut self.direction);
     }
 
-    fn remember(&mut self, energy: &mut Energy<'_, D>) {
+    fn remember(&mut self, energy: &mut dyn Potential<D>) {
         energy.places(&mut self.next);
         let taken = Taken {
             from: &self.place,
@@ -68,7 +68,7 @@ impl<const D: usize> Lbfgs<D> {
 }
 
 impl<const D: usize> Minimiser<D> for Lbfgs<D> {
-    fn step(&mut self, energy: &mut Energy<'_, D>) -> Step {
+    fn step(&mut self, energy: &mut dyn Potential<D>) -> Step {
         energy.places(&mut self.place);
         self.force.clear();
         self.force.extend_from_slice(energy.force());
@@ -76,7 +76,7 @@ impl<const D: usize> Minimiser<D> for Lbfgs<D> {
         loop {
             self.find_direction(energy);
             let mut slope = vectors::dot(&self.direction, &self.force);
-            let mut longest = vectors::longest(&self.direction);
+            let mut longest = energy.longest(&self.direction);
             if slope.is_nan() || slope <= 0.0 || longest.is_nan() {
                 if self.history.is_empty() {
                     return Step::Stuck;

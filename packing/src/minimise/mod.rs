@@ -6,7 +6,7 @@
 //! | [`Fire`] | dynamics that is stopped where it runs uphill, and hastened where it does not | Bitzek et al., PRL 97, 170201 (2006) |
 //! | [`Lbfgs`] | quasi-Newton steps from the last few gradients, with a line search | Nocedal & Wright, Numerical Optimization, ch. 7 |
 //!
-//! All work on a [`Energy`]: the energy of pressure and repulsion over the places of the mobile particles, boundary
+//! All work on a [`Potential`]: mostly an [`Energy`], that of pressure and repulsion over the places of the mobile particles, boundary
 //! particles held on their surfaces. [`Settling`] is the schedule that methods share.
 //!
 //! # What was tried and dropped
@@ -55,6 +55,44 @@ use std::str::FromStr;
 
 use crate::Damaged;
 
+/// An energy over the places of mobile particles, as minimisers see it: coordinates may be scaled from particle to particle, so that
+/// a step means the same to all.
+pub trait Potential<const D: usize> {
+    /// Number of mobile particles: the length of every vector here.
+    fn len(&self) -> usize;
+
+    /// Whether nothing can move.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The spacing that a step's length is compared with, scene units.
+    fn spacing(&self) -> f64;
+
+    /// The smoothing length of particles of that spacing, scene units.
+    fn smoothing_length(&self) -> f64;
+
+    /// The energy where the particles are.
+    fn value(&mut self) -> f64;
+
+    /// Minus its gradient, along the surface for boundary particles.
+    fn force(&mut self) -> &[[f64; D]];
+
+    /// Writes the coordinates of the mobile particles.
+    fn places(&self, out: &mut Vec<[f64; D]>);
+
+    /// Puts the mobile particles at `from + step · direction`, boundary ones onto their surface from there.
+    fn move_to(&mut self, from: &[[f64; D]], step: f64, direction: &[[f64; D]]);
+
+    /// `v` of every mobile particle without its part along the normal of the surface that it sits on.
+    fn make_tangential(&self, v: &mut [[f64; D]]);
+
+    /// The length of the longest of these steps, for particles of [`Potential::spacing`].
+    fn longest(&self, direction: &[[f64; D]]) -> f64 {
+        vectors::longest(direction)
+    }
+}
+
 /// What a step came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Step {
@@ -67,7 +105,7 @@ pub enum Step {
 /// Goes down an energy, step by step.
 pub trait Minimiser<const D: usize>: fmt::Debug {
     /// One step from where the particles are, which costs one evaluation or, in a line search, a few.
-    fn step(&mut self, energy: &mut Energy<'_, D>) -> Step;
+    fn step(&mut self, energy: &mut dyn Potential<D>) -> Step;
 
     /// Forgets what earlier steps taught: the energy has become another one, or other particles move.
     fn reset(&mut self);

@@ -25,6 +25,8 @@ pub(crate) struct Movable<'a, const D: usize> {
     sides: Sides<D>,
     walls: Walls<D>,
     reach: f64,
+    /// What every particle's coordinates are divided by; empty where by nothing.
+    scale: Vec<f64>,
     pub(crate) mobile: Vec<u32>,
     is_surface_held: bool,
     /// Seconds spent on keeping particles where they belong.
@@ -46,6 +48,10 @@ impl<'a, const D: usize> Movable<'a, D> {
         let mut on_surface = OnSurface::default();
         on_surface.refresh(particles);
         let mut movable = Self {
+            scale: particles
+                .sizes
+                .relative()
+                .map_or(Vec::new(), <[f64]>::to_vec),
             particles,
             surfaces,
             bodies: &[],
@@ -69,16 +75,43 @@ impl<'a, const D: usize> Movable<'a, D> {
         self.seconds += start.elapsed().as_secs_f64();
     }
 
+    /// From now on the coordinates of every particle are divided by its entry.
+    pub(crate) fn rescale(&mut self, scale: Vec<f64>) {
+        self.scale = scale;
+    }
+
+    /// What the coordinates of particle `i` are divided by.
+    #[inline]
+    pub(crate) fn scale(&self, i: usize) -> f64 {
+        self.scale.get(i).copied().unwrap_or(1.0)
+    }
+
+    /// Makes forces on the mobile particles, tangential already, those on their coordinates; what holds a particle takes the force
+    /// that pushes it there.
+    pub(crate) fn constrain(&self, force: &mut [[f64; D]]) {
+        if !self.scale.is_empty() {
+            for (force, &i) in force.iter_mut().zip(&self.mobile) {
+                *force = point::scale(*force, self.scale[i as usize]);
+            }
+        }
+        for (place, away) in self.held() {
+            if point::dot(force[place], away) < 0.0 {
+                force[place] = point::reject(force[place], away);
+            }
+        }
+    }
+
     /// Writes the coordinates of the mobile particles.
     pub(crate) fn places(&self, out: &mut Vec<[f64; D]>) {
         out.clear();
         let position = &self.particles.position;
-        match self.particles.sizes.relative() {
-            None => out.extend(self.mobile.iter().map(|&i| position[i as usize])),
-            Some(over) => out.extend(self.mobile.iter().map(|&i| {
+        if self.scale.is_empty() {
+            out.extend(self.mobile.iter().map(|&i| position[i as usize]));
+        } else {
+            out.extend(self.mobile.iter().map(|&i| {
                 let i = i as usize;
-                position[i].map(|x| x / over[i])
-            })),
+                position[i].map(|x| x / self.scale[i])
+            }));
         }
     }
 
@@ -87,11 +120,11 @@ impl<'a, const D: usize> Movable<'a, D> {
         for ((&i, &x), &d) in self.mobile.iter().zip(from).zip(direction) {
             self.particles.position[i as usize] = point::add_scaled(x, step, d);
         }
-        if let Some(over) = self.particles.sizes.relative() {
+        if !self.scale.is_empty() {
             for &i in &self.mobile {
                 let i = i as usize;
                 let x = &mut self.particles.position[i];
-                *x = point::scale(*x, over[i]);
+                *x = point::scale(*x, self.scale[i]);
             }
         }
         self.project();
@@ -150,6 +183,7 @@ impl<'a, const D: usize> Movable<'a, D> {
 impl<const D: usize> State for Movable<'_, D> {
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
         self.particles.save(out)?;
+        self.scale.save(out)?;
         self.is_surface_held.save(out)?;
         self.on_surface.save(out)?;
         self.sides.save(out)?;
@@ -159,6 +193,10 @@ impl<const D: usize> State for Movable<'_, D> {
 
     fn load(&mut self, from: &mut &[u8]) -> Result<(), Damaged> {
         self.particles.load(from)?;
+        self.scale.load(from)?;
+        if !(self.scale.is_empty() || self.scale.len() == self.particles.len()) {
+            return Err(Damaged);
+        }
         self.is_surface_held.load(from)?;
         self.on_surface.load(from)?;
         let count = self.particles.len();

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Energy, Minimiser, MinimiserKind, Step};
+use super::{Energy, Minimiser, MinimiserKind, Potential, Step};
 use crate::forces::Levelling;
 use crate::packed::StopReason;
 use crate::problem::PackingError;
@@ -215,7 +215,7 @@ impl Settling {
             if energy.take_changed() {
                 minimiser.reset();
             }
-            let step = minimiser.step(energy);
+            let step = minimiser.step(*energy);
             let residual = energy.residual();
             let evaluations = energy.evaluations();
             log.progress.evaluation = earlier + evaluations;

@@ -8,7 +8,7 @@ use sphpack_neighbors::{Domain, point};
 use sphpack_pairs::Repulsion;
 
 use crate::forces::Forces;
-use crate::minimise::Energy;
+use crate::minimise::{Energy, Potential};
 use crate::quality::Fields;
 use crate::{Kind, PackingError, Particles, Problem, Resolution, Sizes, Spacing, SpacingField};
 

@@ -3,9 +3,11 @@
 mod density;
 mod gradient;
 mod repulsion;
+mod sized;
 mod variation;
 
 pub use density::{Density, DensitySum};
 pub use gradient::{Gradient, TargetGradient};
 pub use repulsion::{Repulsion, RepulsionSum};
+pub use sized::{Averaged, AveragedSum, SizedRepulsion, SizedRepulsionSum};
 pub use variation::{Variation, VariationSum};

@@ -92,6 +92,45 @@ impl Repulsion {
         self.strength * self.c * (3.0 * self.c / r - 2.0) / r3
     }
 
+    /// The smoothing length of the particles that it is given for, in the loop's unit.
+    #[inline(always)]
+    pub(crate) fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// From the loop's energies to the scene's.
+    #[inline(always)]
+    pub(crate) fn energy_scale(&self) -> f64 {
+        self.loops.energy_scale
+    }
+
+    /// Force and potential at a squared distance and the inverse of that distance, as the loop computes them: lane by lane, zero where
+    /// nothing repels; `None` where no lane is repelled.
+    #[inline(always)]
+    pub(crate) fn pair<S: Simd>(
+        &self,
+        square: f64x8<S>,
+        inverse: f64x8<S>,
+    ) -> Option<[f64x8<S>; 2]> {
+        let simd = square.simd;
+        let constant = |c: f64| f64x8::splat(simd, c);
+        let c = &self.loops;
+        let zero = constant(0.0);
+        let repelled = square.simd_lt(constant(c.reach_squared)) & square.simd_gt(zero);
+        if !repelled.any_true() {
+            return None;
+        }
+        // 1/r and r, no nearer than the core.
+        let i = inverse.min(constant(c.inverse_core));
+        let inside = (constant(c.core) - square * inverse).max(zero);
+        let i2 = i * i;
+        let force = constant(c.strength) * i2 * i * (constant(3.0 * c.c) * i - constant(2.0));
+        let force = repelled.select(force, zero);
+        let potential = constant(c.strength) * i2 * (constant(c.c) * i - constant(1.0));
+        let potential = inside.mul_add(force, potential - constant(c.potential_at_reach));
+        Some([force, repelled.select(potential, zero)])
+    }
+
     /// The potential of [`Repulsion::force`]: zero from the reach on, linear below ∆s/2.
     #[inline]
     pub fn potential(&self, r: f64) -> f64 {
@@ -182,9 +221,6 @@ impl Term for Repulsion {
         let simd = group.simd;
         // The part of the energy that is the targets'.
         let share = if group.are_targets { 0.5 } else { 1.0 };
-        let constant = |c: f64| f64x8::splat(simd, c);
-        let c = &self.loops;
-        let zero = constant(0.0);
         // Where sizes differ: by how much the pair is smaller than what the coefficients are for.
         let smaller = group.over_mean(self.size);
         for j in 0..GROUP {
@@ -194,27 +230,17 @@ impl Term for Repulsion {
                 square = square * smaller[j] * smaller[j];
                 inverse /= smaller[j];
             }
-            let repelled = square.simd_lt(constant(c.reach_squared)) & square.simd_gt(zero);
-            if repelled.any_true() {
-                // 1/r and r, no nearer than the core.
-                let i = inverse.min(constant(c.inverse_core));
-                let inside = (constant(c.core) - square * inverse).max(zero);
-                let i2 = i * i;
-                let force =
-                    constant(c.strength) * i2 * i * (constant(3.0 * c.c) * i - constant(2.0));
-                let force = repelled.select(force, zero);
-                let mut push = force * group.inverse.0[j];
-                if let Some(smaller) = smaller {
-                    push *= smaller[j];
-                }
-                for k in 0..D {
-                    sums.acceleration[k] = push.mul_add(group.apart[j][k], sums.acceleration[k]);
-                }
-                let potential = constant(c.strength) * i2 * (constant(c.c) * i - constant(1.0));
-                let potential = inside.mul_add(force, potential - constant(c.potential_at_reach));
-                let potential = repelled.select(potential, zero);
-                sums.energy = potential.mul_add(constant(share), sums.energy);
+            let Some([force, potential]) = self.pair(square, inverse) else {
+                continue;
+            };
+            let mut push = force * group.inverse.0[j];
+            if let Some(smaller) = smaller {
+                push *= smaller[j];
             }
+            for k in 0..D {
+                sums.acceleration[k] = push.mul_add(group.apart[j][k], sums.acceleration[k]);
+            }
+            sums.energy = potential.mul_add(f64x8::splat(simd, share), sums.energy);
         }
     }
 

@@ -1,4 +1,4 @@
-//! Particles with a smoothing length each, against all pairs: gather, scatter and a mean h in one walk, with a field.
+//! Particles with a smoothing length each, against all pairs: gather, scatter and a root mean square of h in one walk, with a field.
 
 use fearless_simd::{Simd, f64x8, prelude::*};
 use proptest::prelude::*;
@@ -131,7 +131,7 @@ impl<const D: usize> Set<'_, D> {
                     std::array::from_fn(|k| base[k] + f64::from(step[k]) * box_size[k]);
                 let r = point::norm(d);
                 let (own, theirs) = (of(self.sizes[i]), of(self.sizes[j]));
-                let mean = of(0.5 * (self.sizes[i] + self.sizes[j]));
+                let mean = of((0.5 * (self.sizes[i].powi(2) + self.sizes[j].powi(2))).sqrt());
                 let w = self.weights[j];
                 sums.density += w * own.value(r);
                 sums.theirs += w * theirs.value(r);

@@ -10,6 +10,7 @@ use sphpack_pairs::{
 
 mod each;
 mod repulsion;
+mod sized;
 mod variation;
 
 /// Point sets in the unit box: random, shaken lattice, lattice, coincident.

@@ -3,7 +3,7 @@
 use sphpack_geometry::Closest;
 use sphpack_neighbors::KdTree;
 
-/// Points of different bodies are kept this far apart, in ∆s: where an earlier body has one, a later one has none.
+/// Points of different bodies are kept this far apart, in the mean of their spacings: where an earlier body has one, a later one has none.
 const APART_OVER_SPACING: f64 = 0.6;
 
 /// What bodies share of each other's surfaces, in points.
@@ -17,7 +17,10 @@ pub(super) struct Clash {
 
 /// Takes away points that are too near to those of an earlier body: surfaces that touch carry one layer of particles,
 /// which stands for both.
-pub(super) fn resolve<const D: usize>(samples: &mut [Vec<Closest<D>>], spacing: f64) -> Vec<Clash> {
+pub(super) fn resolve<const D: usize>(
+    samples: &mut [Vec<Closest<D>>],
+    spacings: &[f64],
+) -> Vec<Clash> {
     let mut clashes = vec![Clash::default(); samples.len()];
     let mut taken: Vec<[f64; D]> = Vec::new();
     let mut owner: Vec<usize> = Vec::new();
@@ -27,9 +30,10 @@ pub(super) fn resolve<const D: usize>(samples: &mut [Vec<Closest<D>>], spacing: 
         {
             samples[body].retain(|point| {
                 let near = tree.nearest_n(point.point, 1);
-                let hit = near
-                    .first()
-                    .filter(|hit| hit.distance < APART_OVER_SPACING * spacing);
+                let hit = near.first().filter(|hit| {
+                    let spacing = 0.5 * (spacings[body] + spacings[owner[hit.index]]);
+                    hit.distance < APART_OVER_SPACING * spacing
+                });
                 if let Some(hit) = hit {
                     clashes[owner[hit.index]].shared += 1;
                     clashes[body].shared += 1;

@@ -3,6 +3,7 @@
 mod band;
 mod clashes;
 mod goals;
+mod graded;
 pub(crate) mod parts;
 mod pockets;
 mod round;
@@ -109,7 +110,7 @@ impl Balanced {
             return Err(PackingError::TooManyAtRest { particles, most });
         }
         for body in &problem.bodies {
-            if inset(problem, body)?.is_none() && !is_usual(body) {
+            if inset(body, problem.spacing())?.is_none() && !is_usual(body) {
                 let depth = body.inset_over_spacing * problem.spacing();
                 return Err(PackingError::Surface {
                     body: body.name.clone(),
@@ -141,13 +142,17 @@ impl Balanced {
         };
         log.begin(&Self::INFO, settling.tolerance(), settling.max_evaluations);
         self.check_in(problem)?;
+        if problem.resolution.uniform().is_none() {
+            return graded::pack(problem, &self.settling, log);
+        }
         log.enter(Stage::Geometry);
         let geometry = Instant::now();
         let whole = problem;
         let parts = Parts::of(whole);
         let problem = &parts.problem;
-        let (mut surfaces, mut samples, excess) = sample(problem)?;
-        let clashes = clashes::resolve(&mut samples, problem.spacing());
+        let spacings = vec![problem.spacing(); problem.bodies.len()];
+        let (mut surfaces, mut samples, excess) = sample(&problem.bodies, &spacings)?;
+        let clashes = clashes::resolve(&mut samples, &spacings);
         for (surface, points) in surfaces.iter_mut().zip(&samples) {
             surface.target_count = points.len();
         }
@@ -237,7 +242,9 @@ impl Balanced {
             .with_known_sides();
         packed.omitted = omitted;
         packed.excess = excess;
-        Ok(parts.gather(packed, whole, |body| inset(whole, body).ok().flatten()))
+        Ok(parts.gather(packed, whole, |body| {
+            inset(body, whole.spacing()).ok().flatten()
+        }))
     }
 }
 
@@ -260,25 +267,43 @@ fn place<const D: usize>(
         &sites,
     );
     let least = 0.5 * volume;
-    let (mut room, omitted) = rooms(parts, (samples, excess), least);
+    let (mut room, omitted) = rooms(
+        parts,
+        (samples, excess),
+        &vec![least; parts.problem.bodies.len()],
+    );
     let fluid = room.pop().unwrap_or(0.0);
     let pockets = Pockets::of(problem, &sites, &depths, fluid, least);
     room.extend(&pockets.volume);
+    let within = Within {
+        pockets: pockets.volume.len(),
+        at: &|place| pockets.at(problem, place),
+    };
     let held: Vec<Held<'_, D>> = (problem.bodies.iter().zip(surfaces).enumerate())
         .map(|(part, (body, surface))| Held {
             body,
+            spacing: volume.powf(1.0 / D as f64),
+            volume_per_point: volume,
+            layer: None,
             surface: surface.surface.as_ref(),
             points: samples[part].len(),
             removed: clashes[part].removed,
             excess: excess[part],
-            reaches: reaches(problem, &pockets, part, &samples[part]),
+            reaches: reaches(
+                &problem.bodies,
+                part,
+                &samples[part],
+                problem.spacing(),
+                &within,
+            ),
         })
         .collect();
     let on_surface: Vec<Closest<D>> = samples.iter().flatten().copied().collect();
     let choose =
         |regions: &[Share]| sites::choose(problem, &depths, &pockets, &sites, &on_surface, regions);
-    let all = sites.len();
-    let mut shares = shares::shares(&held, &room, &vec![usize::MAX; room.len()], all, volume);
+    let all = Some(sites.len());
+    let per_site = vec![volume; room.len()];
+    let mut shares = shares::shares(&held, &room, &vec![usize::MAX; room.len()], all, &per_site);
     let mut chosen = choose(&shares.regions);
     let is_short = |region: usize, share: &Share| chosen.count[region] < share.sites;
     if (shares.regions.iter().enumerate()).any(|(region, share)| is_short(region, share)) {
@@ -291,7 +316,7 @@ fn place<const D: usize>(
                 }
             })
             .collect();
-        shares = shares::shares(&held, &room, &most, all, volume);
+        shares = shares::shares(&held, &room, &most, all, &per_site);
         chosen = choose(&shares.regions);
     }
     let mut particles = Particles::new(problem.sizes());
@@ -315,13 +340,13 @@ fn place<const D: usize>(
     (seeds, omitted)
 }
 
-/// The volume of every part without what lies in it, and of the fluid last; and the parts of less than `least` (half a
+/// The volume of every part without what lies in it, and of the fluid last; and the parts of less than their `least` (half a
 /// particle) without a surface particle, whose volume whatever is around them has. What a part takes beyond its own volume is
 /// taken from what is around it.
 fn rooms<const D: usize>(
     parts: &Parts<D>,
     (samples, excess): (&[Vec<Closest<D>>], &[f64]),
-    least: f64,
+    least: &[f64],
 ) -> (Vec<f64>, Vec<Omitted<D>>) {
     let bodies = &parts.problem.bodies;
     let inside = shares::directly_inside(bodies, parts.problem.spacing());
@@ -329,7 +354,7 @@ fn rooms<const D: usize>(
     let mut omitted = Vec::new();
     for (region, within) in inside.iter().enumerate() {
         for &part in within {
-            if samples[part].is_empty() && room[part] < least {
+            if samples[part].is_empty() && room[part] < least[part] {
                 let surface = &bodies[part].surface;
                 omitted.push(Omitted {
                     body: part,
@@ -348,30 +373,32 @@ fn rooms<const D: usize>(
 /// How far beyond an exact surface it is asked who is there, in ∆s.
 const BEYOND_OVER_SPACING: f64 = 0.1;
 
-/// How much of a part's surface particles is in which region, in particles.
+/// The pockets of fluid: how many there are, and which one a place in the fluid is in.
+struct Within<'a, const D: usize> {
+    pockets: usize,
+    at: &'a dyn Fn([f64; D]) -> Option<usize>,
+}
+
+/// How much of a part's surface particles, of the given spacing, is in which region, in particles.
 fn reaches<const D: usize>(
-    problem: &Problem<D>,
-    pockets: &Pockets<D>,
+    bodies: &[Body<D>],
     part: usize,
     points: &[Closest<D>],
+    spacing: f64,
+    within: &Within<'_, D>,
 ) -> Vec<(usize, f64)> {
-    let bodies = &problem.bodies;
     let own = bodies[part].inner_share();
     let mut reaches = vec![(part, own * points.len() as f64)];
     if own == 1.0 {
         return reaches;
     }
-    let mut beyond = vec![0.0; bodies.len() + pockets.volume.len()];
+    let mut beyond = vec![0.0; bodies.len() + within.pockets];
     for point in points {
         let hit = bodies[part].surface.closest(point.point);
-        let place = point::add_scaled(
-            hit.point,
-            BEYOND_OVER_SPACING * problem.spacing(),
-            hit.normal,
-        );
+        let place = point::add_scaled(hit.point, BEYOND_OVER_SPACING * spacing, hit.normal);
         let there = (0..bodies.len())
             .find(|&b| b != part && bodies[b].surface.inside(place))
-            .unwrap_or_else(|| bodies.len() + pockets.at(problem, place).unwrap_or(0));
+            .unwrap_or_else(|| bodies.len() + (within.at)(place).unwrap_or(0));
         beyond[there] += 1.0 - own;
     }
     reaches.extend((beyond.into_iter().enumerate()).filter(|(_, count)| *count > 0.0));
@@ -384,12 +411,13 @@ fn is_usual<const D: usize>(body: &Body<D>) -> bool {
     body.inset_over_spacing <= DEFAULT_INSET_OVER_SPACING
 }
 
-/// A body's particle surface, `None` where it is so thin that it has none; the surface itself where that is asked for.
+/// A body's particle surface for particles of a spacing, `None` where it is so thin that it has none; the surface itself where that
+/// is asked for.
 fn inset<const D: usize>(
-    problem: &Problem<D>,
     body: &Body<D>,
+    spacing: f64,
 ) -> Result<Option<Arc<dyn Surface<D>>>, PackingError> {
-    let depth = body.inset_over_spacing * problem.spacing();
+    let depth = body.inset_over_spacing * spacing;
     if depth == 0.0 {
         return Ok(Some(body.surface.clone()));
     }
@@ -405,25 +433,28 @@ fn inset<const D: usize>(
 
 type Sampled<const D: usize> = (Vec<ParticleSurface<D>>, Vec<Vec<Closest<D>>>, Vec<f64>);
 
-/// Every particle surface with its points, and the volume that these stand for beyond the body's. Points in the middle of parts that are too thin to have a surface count as
+/// Every particle surface with its points, for particles of a spacing for each, and the volume that these stand for beyond the body's. Points in the middle of parts that are too thin to have a surface count as
 /// corners: they stay where they are.
-fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingError> {
+fn sample<const D: usize>(
+    bodies: &[Body<D>],
+    spacings: &[f64],
+) -> Result<Sampled<D>, PackingError> {
     let mut surfaces = Vec::new();
     let mut samples = Vec::new();
     let mut excess = Vec::new();
-    for body in &problem.bodies {
+    for (body, &spacing) in bodies.iter().zip(spacings) {
         let fail = |source| PackingError::Surface {
             body: body.name.clone(),
             error: source,
         };
-        let depth = body.inset_over_spacing * problem.spacing();
+        let depth = body.inset_over_spacing * spacing;
         let is_usual = is_usual(body);
-        let inset = inset(problem, body)?;
+        let inset = inset(body, spacing)?;
         let found = match &inset {
             // A body that fills the box has no surface in it.
             Some(surface) if !is_usual && surface.measure() <= 0.0 => Ok(SurfaceSamples::default()),
             Some(surface) if !is_usual => {
-                let count = surface.measure() / problem.spacing().powi(D as i32 - 1);
+                let count = surface.measure() / spacing.powi(D as i32 - 1);
                 surface
                     .sample(count.round().max(1.0) as usize)
                     .map(|on_surface| SurfaceSamples {
@@ -434,7 +465,7 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
             _ => sample_thin(
                 body.surface.as_ref(),
                 inset.as_deref(),
-                problem.spacing(),
+                spacing,
                 depth,
                 body.thin,
             ),

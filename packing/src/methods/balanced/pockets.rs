@@ -255,7 +255,7 @@ fn connected<const D: usize>(
 }
 
 /// The first member of a set of joined numbers; ways to it are halved.
-fn root(first: &mut [u32], mut i: u32) -> u32 {
+pub(super) fn root(first: &mut [u32], mut i: u32) -> u32 {
     while first[i as usize] != i {
         first[i as usize] = first[first[i as usize] as usize];
         i = first[i as usize];
@@ -274,7 +274,7 @@ fn distance<const D: usize>(problem: &Problem<D>, place: [f64; D]) -> f64 {
 
 /// Whether the straight way from one place in the fluid to another, so far from bodies each, is through fluid. Goes on by
 /// as much as there is room.
-fn is_open<const D: usize>(
+pub(super) fn is_open<const D: usize>(
     problem: &Problem<D>,
     from: [f64; D],
     to: [f64; D],

@@ -65,6 +65,11 @@ pub(super) struct Shares {
 #[derive(Debug)]
 pub(super) struct Held<'a, const D: usize> {
     pub(super) body: &'a Body<D>,
+    /// That of its surface particles, scene units, and the volume that one of them has where space is evenly filled.
+    pub(super) spacing: f64,
+    pub(super) volume_per_point: f64,
+    /// The volume that its surface particles stand for, where it is known otherwise than by a deeper inset.
+    pub(super) layer: Option<f64>,
     pub(super) surface: &'a dyn Surface<D>,
     /// Particles on its surface.
     pub(super) points: usize,
@@ -88,24 +93,25 @@ const LEAST: f64 = 0.1;
 /// Shares out the volume of every region, `room`: the parts' without what lies in them, and the pockets' of fluid behind; the
 /// sum is the box's. Every region has its own to the last digit: its lattice sites take what surface particles leave. A
 /// part with none, or with as many as it has places for (`most`), shares it evenly with its surface particles; one without
-/// either (less than half a particle) has nothing. `sites` are as many particles as there are to be in all.
+/// either (less than half a particle) has nothing. `sites` are as many particles as there are to be in all, where that is known;
+/// `volume_per_site` is every region's.
 pub(super) fn shares<const D: usize>(
     held: &[Held<'_, D>],
     room: &[f64],
     most: &[usize],
-    sites: usize,
-    volume_per_site: f64,
+    sites: Option<usize>,
+    volume_per_site: &[f64],
 ) -> Shares {
     let parts = held.len();
-    let spacing = volume_per_site.powf(1.0 / D as f64);
     let mut surface_volume: Vec<f64> = (held.iter())
         .map(|held| {
             // Points that were left to another body are still part of this one's layer.
             let count = (held.points + held.removed) as f64;
-            let whole = Layer::of(held.body, held.surface, spacing).whole() + held.excess;
+            let layer = || Layer::of(held.body, held.surface, held.spacing).whole();
+            let whole = held.layer.unwrap_or_else(layer) + held.excess;
             (whole / count.max(1.0)).clamp(
-                volume_per_site / VOLUME_LIMIT,
-                volume_per_site * VOLUME_LIMIT,
+                held.volume_per_point / VOLUME_LIMIT,
+                held.volume_per_point * VOLUME_LIMIT,
             )
         })
         .collect();
@@ -123,7 +129,7 @@ pub(super) fn shares<const D: usize>(
         room[region] - taken
     };
     let fit = |region: usize, surface_volume: &[f64]| {
-        let fit = rest(region, surface_volume) / volume_per_site;
+        let fit = rest(region, surface_volume) / volume_per_site[region];
         fit.round().max(0.0) as usize
     };
     // Parts that have no place for all share their volume evenly; what that takes of others they have less.
@@ -144,7 +150,7 @@ pub(super) fn shares<const D: usize>(
             let all = count + own[part] as f64;
             if count > 0.0 {
                 let left = rest(part, &surface_volume) + count * surface_volume[part];
-                let least = volume_per_site * LEAST;
+                let least = held[part].volume_per_point * LEAST;
                 surface_volume[part] = (left / all).max(least);
             }
         }
@@ -160,11 +166,13 @@ pub(super) fn shares<const D: usize>(
         })
         .collect();
     // All sites that are left, unless bodies have almost all the room: then there may be some too many.
-    let others: usize = own.iter().sum::<usize>() - own[main];
-    let on_surface: usize = held.iter().map(|held| held.points).sum();
-    let left = sites.saturating_sub(others + on_surface);
-    if left as f64 <= VOLUME_LIMIT * own[main] as f64 {
-        own[main] = left.min(most[main]);
+    if let Some(sites) = sites {
+        let others: usize = own.iter().sum::<usize>() - own[main];
+        let on_surface: usize = held.iter().map(|held| held.points).sum();
+        let left = sites.saturating_sub(others + on_surface);
+        if left as f64 <= VOLUME_LIMIT * own[main] as f64 {
+            own[main] = left.min(most[main]);
+        }
     }
     let regions = (own.into_iter().enumerate())
         .map(|(region, sites)| Share {
@@ -172,7 +180,7 @@ pub(super) fn shares<const D: usize>(
             particle_volume: if sites > 0 {
                 rest(region, &surface_volume) / sites as f64
             } else {
-                volume_per_site
+                volume_per_site[region]
             },
         })
         .collect();

@@ -20,7 +20,7 @@ impl RunLog<'_> {
         &mut self,
         problem: &Problem<D>,
     ) -> Result<Vec<ParticleSurface<D>>, PackingError> {
-        problem.check()?;
+        problem.check_uniform()?;
         self.enter(Stage::Geometry);
         let geometry = Instant::now();
         let surfaces = particle_surfaces(problem)?;
@@ -75,7 +75,7 @@ impl MethodInfo {
     /// Those of [`Method::pack`](crate::Method::pack).
     pub(crate) fn check<const D: usize>(&self, problem: &Problem<D>) -> Result<(), PackingError> {
         self.check_dimension(D)?;
-        problem.check()?;
+        problem.check_uniform()?;
         particle_surfaces(problem).map(drop)
     }
 

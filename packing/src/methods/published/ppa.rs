@@ -113,7 +113,7 @@ impl Ppa {
         log.begin(&Self::INFO, self.energy_tolerance, self.max_iterations);
         log.enter(Stage::Geometry);
         let geometry = Instant::now();
-        problem.check()?;
+        problem.check_uniform()?;
         // No particle is on a wall: the fluid goes to the true surfaces.
         let surfaces = (problem.bodies.iter())
             .map(|body| ParticleSurface {

@@ -59,7 +59,7 @@ impl Triangulated {
     ) -> Result<Packed<D>, PackingError> {
         Self::INFO.check_dimension(D)?;
         log.begin(&Self::INFO, 0.0, 1);
-        problem.check()?;
+        problem.check_uniform()?;
         log.enter(Stage::Geometry);
         let geometry = Instant::now();
         let surfaces = particle_surfaces(problem)?;

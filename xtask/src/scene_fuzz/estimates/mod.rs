@@ -215,7 +215,7 @@ fn row(job: Job, program: &Path, scratch: &Path) -> Result<Row, String> {
         whole: is_whole.then(|| Pair {
             said: plan.building_seconds
                 + slowness * estimate.seconds_beside
-                + each * scene.packing.typical_evaluations(),
+                + each * scene.typical_evaluations(),
             took: seconds,
         }),
         job,

@@ -1,0 +1,207 @@
+//! Surfaces along which the field of spacings varies: where their particles sit, and how many there are.
+
+use std::sync::Arc;
+
+use sphpack_geometry::{
+    Closest, Feature, Features, GeometryError, InsetError, Surface, sample_weighted,
+};
+use sphpack_neighbors::{Bounds, Domain, KdTree, point};
+
+use crate::problem::Body;
+use crate::resolution::Resolution;
+
+/// Places of a surface that are asked for the field's spacing there.
+const ASKED: usize = 512;
+
+/// Spacings along a surface that differ by no more than this part are one.
+const UNIFORM: f64 = 0.01;
+
+/// What the field says along a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Along {
+    /// The spacing that as many equal particles would have: the mean of s^−(D−1), to the power −1/(D−1). Scene units.
+    pub(super) mean: f64,
+    /// Whether it is the spacing everywhere.
+    pub(super) is_uniform: bool,
+}
+
+impl Along {
+    pub(super) fn of<const D: usize>(
+        resolution: &Resolution<D>,
+        surface: &dyn Surface<D>,
+        fallback: f64,
+    ) -> Self {
+        let spacings: Vec<f64> = (surface.scatter(ASKED).iter())
+            .map(|hit| resolution.at(hit.point).value)
+            .collect();
+        if spacings.is_empty() {
+            return Self {
+                mean: fallback,
+                is_uniform: true,
+            };
+        }
+        let power = D as i32 - 1;
+        let sum: f64 = spacings.iter().map(|s| s.powi(-power)).sum();
+        let mean = (sum / spacings.len() as f64).powf(-1.0 / f64::from(power));
+        let off = (spacings.iter()).fold(0.0, |most: f64, s| most.max((s / mean - 1.0).abs()));
+        Self {
+            mean,
+            is_uniform: off <= UNIFORM,
+        }
+    }
+}
+
+/// The set that lies inside a body's surface by a part of the spacing that the field has at the nearest place of that surface.
+///
+/// Exact on smooth surfaces whose radius of curvature is larger; its measure and volume are to first order.
+#[derive(Debug, Clone)]
+pub(super) struct FollowingInset<const D: usize> {
+    body: Arc<dyn Surface<D>>,
+    resolution: Resolution<D>,
+    inset_over_spacing: f64,
+    mean_depth: f64,
+}
+
+impl<const D: usize> FollowingInset<D> {
+    pub(super) fn new(body: &Body<D>, resolution: &Resolution<D>, along: Along) -> Self {
+        Self {
+            body: body.surface.clone(),
+            resolution: resolution.clone(),
+            inset_over_spacing: body.inset_over_spacing,
+            mean_depth: body.inset_over_spacing * along.mean,
+        }
+    }
+
+    fn depth(&self, on_body: [f64; D]) -> f64 {
+        self.inset_over_spacing * self.resolution.at(on_body).value
+    }
+
+    fn within(&self, hit: Closest<D>) -> Closest<D> {
+        let depth = self.depth(hit.point);
+        Closest {
+            point: point::add_scaled(hit.point, -depth, hit.normal),
+            distance: hit.distance + depth,
+            ..hit
+        }
+    }
+
+    /// Points for the particles: their number per area goes with s^−(D−1), corners and edges first.
+    /// Where a body is so thin that points from both sides meet, one of them stays.
+    pub(super) fn sample(&self) -> Result<Vec<Closest<D>>, GeometryError> {
+        let power = D as i32 - 1;
+        let spacing = |hit: &Closest<D>| self.resolution.at(hit.point).value;
+        let hits = self.body.scatter(ASKED);
+        let density: f64 = hits.iter().map(|hit| spacing(hit).powi(-power)).sum();
+        let mean = density / hits.len().max(1) as f64;
+        // The inset of a convex body is smaller: by as much as that of its mean depth.
+        let inset = self.body.inset(self.mean_depth);
+        let measure = inset.map_or(self.body.measure(), |inset| inset.measure());
+        let count = (measure * mean).round().max(1.0) as usize;
+        let weight = |hit: &Closest<D>| spacing(hit).powi(-power);
+        let on_body = sample_weighted(self.body.as_ref(), count, &weight)?;
+        let (mut points, mut spacings): (Vec<Closest<D>>, Vec<f64>) = (Vec::new(), Vec::new());
+        for hit in on_body {
+            let own = spacing(&hit);
+            points.push(self.pushed_in(hit));
+            spacings.push(own);
+        }
+        let places: Vec<[f64; D]> = points.iter().map(|hit| hit.point).collect();
+        let Ok(tree) = KdTree::new(&places) else {
+            return Ok(points);
+        };
+        let mut is_kept = vec![true; points.len()];
+        for i in 0..points.len() {
+            let near = tree.within(places[i], APART * spacings[i]);
+            is_kept[i] = near
+                .iter()
+                .all(|other| other.index >= i || !is_kept[other.index]);
+        }
+        let mut is_kept = is_kept.into_iter();
+        points.retain(|_| is_kept.next().unwrap_or(true));
+        Ok(points)
+    }
+
+    /// A point of the body's surface, moved into the body until it is as deep as it should be, or as the body is there.
+    fn pushed_in(&self, hit: Closest<D>) -> Closest<D> {
+        let depth = self.depth(hit.point);
+        if depth == 0.0 {
+            return hit;
+        }
+        let at = |way: f64| point::add_scaled(hit.point, -way, hit.normal);
+        if hit.feature == Feature::Smooth {
+            return Closest {
+                point: at(depth),
+                distance: 0.0,
+                ..hit
+            };
+        }
+        // From a corner the way is longer than the depth.
+        let (mut low, mut high) = (depth, MITRE * depth);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if -self.body.closest(at(middle)).distance < depth {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Closest {
+            point: at(low),
+            distance: 0.0,
+            ..hit
+        }
+    }
+}
+
+/// Points nearer to each other than this, in spacings, are one.
+const APART: f64 = 0.6;
+
+/// The corner of an inset is no farther from the body's than so many depths.
+const MITRE: f64 = 4.0;
+
+/// From a way of depths to one of their 10⁻⁶.
+const HALVINGS: usize = 22;
+
+impl<const D: usize> Surface<D> for FollowingInset<D> {
+    fn closest(&self, p: [f64; D]) -> Closest<D> {
+        self.within(self.body.closest(p))
+    }
+
+    fn closest_within(&self, p: [f64; D], radius: f64) -> Option<Closest<D>> {
+        let deepest = self.inset_over_spacing * self.resolution.range()[1];
+        let hit = self.body.closest_within(p, radius + deepest)?;
+        let hit = self.within(hit);
+        (hit.distance.abs() <= radius).then_some(hit)
+    }
+
+    fn inside(&self, p: [f64; D]) -> bool {
+        self.body.inside(p) && self.closest(p).distance < 0.0
+    }
+
+    fn measure(&self) -> f64 {
+        self.body.measure()
+    }
+
+    fn volume(&self) -> f64 {
+        (self.body.volume() - self.body.measure() * self.mean_depth).max(0.0)
+    }
+
+    fn bounds(&self) -> Bounds<D> {
+        self.body.bounds()
+    }
+
+    fn features(&self) -> Features<D> {
+        Features::default()
+    }
+
+    fn window(&self) -> Option<Domain<D>> {
+        self.body.window()
+    }
+
+    fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {
+        if depth == 0.0 {
+            return Ok(Arc::new(self.clone()));
+        }
+        Err(InsetError::Vanished { depth }.into())
+    }
+}
