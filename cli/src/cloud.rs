@@ -251,7 +251,6 @@ impl Cloud {
             bounds,
             periodic: [false; D],
         };
-        let is_graded = sizes.relative().is_some();
         let fields = Fields::measure_each(
             &domain,
             &positions,
@@ -278,11 +277,7 @@ impl Cloud {
                 })
                 .map(|(i, along)| fields.sizes.smoothing_length(i) * point::norm(along))
         });
-        let lattice = if is_graded {
-            1.0
-        } else {
-            Lattice::auto(D, kernel, h_over_spacing).gamma(kernel, h_over_spacing)
-        };
+        let lattice = Lattice::auto(D, kernel, h_over_spacing).gamma(kernel, h_over_spacing);
         Ok(CloudQuality {
             density: DensityQuality::of(&gamma, lattice),
             residual: ResidualQuality::of(&free, tangential.fold(0.0, f64::max)),

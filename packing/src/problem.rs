@@ -167,6 +167,20 @@ pub enum PackingError {
         /// Support radius and skin.
         reach: f64,
     },
+    /// An open axis is too short for particles of many sizes.
+    #[error(
+        "axis {axis} of the domain is only {size} long, less than particles of the coarsest spacing {coarsest} see, {reach}; make the coarsest finer, or the domain larger"
+    )]
+    NarrowDomain {
+        /// 0, 1, 2.
+        axis: usize,
+        /// The edge.
+        size: f64,
+        /// The coarsest spacing.
+        coarsest: f64,
+        /// How far a particle of it sees.
+        reach: f64,
+    },
     /// A lattice of the wrong dimension.
     #[error("lattice \"{lattice}\" is {}-dimensional, the scene is {dimension}-dimensional", .lattice.dimension())]
     WrongLattice {
@@ -410,6 +424,19 @@ impl<const D: usize> Problem<D> {
                 return Err(PackingError::PeriodTooShort {
                     axis,
                     size: size[axis],
+                    reach,
+                });
+            }
+        }
+        if self.resolution.uniform().is_none() {
+            // Beyond open sides are mirror images, once.
+            let [_, coarsest] = self.resolution.range();
+            let axis = (0..D).find(|&k| !self.domain.periodic[k] && size[k] < reach);
+            if let Some(axis) = axis {
+                return Err(PackingError::NarrowDomain {
+                    axis,
+                    size: size[axis],
+                    coarsest,
                     reach,
                 });
             }

@@ -328,14 +328,8 @@ impl<const D: usize> Packed<D> {
             let pair = ClosestPair::of(&self.domain, places, volumes, is_asked, likely);
             (pair, pair.distance / self.spacing)
         };
-        // An even filling by particles of many sizes has no lattice; its Γ is 1.
-        let lattice = if is_graded {
-            1.0
-        } else {
-            self.lattice.gamma(fields.kernel, h_over_spacing)
-        };
         Quality {
-            density: DensityQuality::of(&gamma, lattice),
+            density: DensityQuality::of(&gamma, self.lattice.gamma(fields.kernel, h_over_spacing)),
             residual: ResidualQuality::of(&free, max_tangential),
             surface: (self.surfaces.iter().zip(&self.bodies).zip(0_u16..))
                 .map(|((surface, name), body)| self.surface_quality(surface, name, body))

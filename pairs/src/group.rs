@@ -40,7 +40,7 @@ pub struct Group<'a, S: Simd, const D: usize> {
     pub inverse: Several<S>,
     /// The sources' weights, usually V_j; zero for padding.
     pub weight: [f64x8<S>; GROUP],
-    /// W(r, h_i).
+    /// W(r, h_i), where the term asks for it ([`crate::Term::OWN`]).
     pub own: Values<S>,
     /// W(r, h_j), where the term asks for it ([`crate::Term::THEIRS`]); else as [`Group::own`].
     pub theirs: Values<S>,
@@ -110,6 +110,21 @@ impl<S: Simd, const D: usize> Group<'_, S, D> {
         let twice = f64x8::splat(self.simd, 2.0 * size);
         for j in 0..GROUP {
             over[j] = twice / (self.size + over[j]);
+        }
+        Some(over)
+    }
+
+    /// The mean h of target and source over `size` (in the sum's unit); `None` where all have one h.
+    #[inline(always)]
+    pub fn mean_over(&self, size: f64) -> Option<[f64x8<S>; GROUP]> {
+        let sizes = &self.gathered.sizes[..];
+        if sizes.is_empty() {
+            return None;
+        }
+        let mut over = self.slots.load(self.simd, |slot| sizes[slot][0]);
+        let part = f64x8::splat(self.simd, 0.5 / size);
+        for j in 0..GROUP {
+            over[j] = part * (self.size + over[j]);
         }
         Some(over)
     }

@@ -15,6 +15,8 @@ pub trait Term: Clone + Sync {
     /// The sums of eight targets on the way.
     type Lanes<S: Simd>: Copy;
 
+    /// Whether [`Group::own`] is needed.
+    const OWN: bool = true;
     /// Whether [`Group::theirs`] is needed.
     const THEIRS: bool = false;
     /// Whether [`Group::mean`] is needed.
@@ -58,6 +60,7 @@ macro_rules! tuples {
             type Sum = ($($name::Sum,)+);
             type Lanes<S: Simd> = ($($name::Lanes<S>,)+);
 
+            const OWN: bool = $($name::OWN)||+;
             const THEIRS: bool = $($name::THEIRS)||+;
             const MEAN: bool = $($name::MEAN)||+;
             const CURVATURE: bool = $($name::CURVATURE)||+;

@@ -40,6 +40,7 @@ pub fn walk<K: Kernel<D>, T: Term, const D: usize>(
     let value = K::Profile::SIGMA / h.powi(D as i32);
     let run = Run {
         own_part: term.own_part(),
+        is_mean_own: gathered.sizes.is_empty() || term.own_part() == 1.0,
         term: &term.in_unit(unit),
         gathered,
         smoothing_length: h,
@@ -58,6 +59,8 @@ struct Run<'a, T> {
     term: &'a T,
     /// Of the target's h in a mean.
     own_part: f64,
+    /// Whether that mean is the target's own h: all have one, or no other has a part in it.
+    is_mean_own: bool,
     gathered: &'a Gathered,
     /// Of all, where sources have no own.
     smoothing_length: f64,
@@ -208,7 +211,17 @@ impl<'a, S: Simd, T: Term, const D: usize> Walk<'a, S, T, D> {
             }
         }
         let (r, inverse) = roots(Several(at_least));
-        let own = values::<S, P, PIECE, D>(r, Several([self.inverse; GROUP]));
+        let by_own = Several([self.inverse; GROUP]);
+        // The kernel is most of a pair: not twice where only the mean is asked for.
+        let own = if T::OWN || self.run.is_mean_own {
+            values::<S, P, PIECE, D>(r, by_own)
+        } else {
+            let none = Several([zero; GROUP]);
+            Values {
+                value: none,
+                slope: none,
+            }
+        };
         let (mut theirs, mut mean) = (own, own);
         if (T::THEIRS || T::MEAN) && !gathered.sizes.is_empty() {
             let sizes = &gathered.sizes[..];
@@ -216,10 +229,8 @@ impl<'a, S: Simd, T: Term, const D: usize> Walk<'a, S, T, D> {
                 let of = Several(slots.load(simd, |slot| sizes[slot][1]));
                 theirs = relative(values::<S, P, PIECE, D>(r, of), self.size, of, D);
             }
-            if T::MEAN {
-                let of = if self.run.own_part == 1.0 {
-                    Several([self.inverse; GROUP])
-                } else if self.run.own_part == 0.0 {
+            if T::MEAN && !self.run.is_mean_own {
+                let of = if self.run.own_part == 0.0 {
                     Several(slots.load(simd, |slot| sizes[slot][1]))
                 } else {
                     let mut square = slots.load(simd, |slot| sizes[slot][0]);

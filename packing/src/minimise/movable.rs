@@ -33,6 +33,9 @@ pub(crate) struct Movable<'a, const D: usize> {
     pub(crate) seconds: f64,
 }
 
+/// Times that surface particles are moved off a side of the box and back onto their surface.
+const PUSHES: usize = 4;
+
 impl<'a, const D: usize> Movable<'a, D> {
     /// Boundary particles are put onto their surfaces first, which are looked for within `reach` (scene units).
     pub(crate) fn new(
@@ -73,6 +76,12 @@ impl<'a, const D: usize> Movable<'a, D> {
         self.bodies = bodies;
         self.sides = Sides::of(self.particles, self.surfaces, bodies, domain);
         self.seconds += start.elapsed().as_secs_f64();
+    }
+
+    /// From now on no particle comes nearer to an open side of the box than `margin`, in its spacings.
+    pub(crate) fn keep_off_sides(&mut self, margin: f64) {
+        self.walls.margin = margin;
+        self.project();
     }
 
     /// From now on the coordinates of every particle are divided by its entry.
@@ -172,6 +181,14 @@ impl<'a, const D: usize> Movable<'a, D> {
         if !self.is_surface_held {
             self.on_surface
                 .project(self.particles, self.surfaces, self.reach);
+            // A surface that crosses a side at a slant takes a few.
+            for _ in 0..PUSHES {
+                if !self.walls.clear(self.particles, &self.mobile) {
+                    break;
+                }
+                self.on_surface
+                    .project(self.particles, self.surfaces, self.reach);
+            }
         }
         self.sides.keep(self.particles, self.surfaces, self.bodies);
         self.walls.keep(self.particles, &self.mobile);

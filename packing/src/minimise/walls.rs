@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use sphpack_neighbors::Domain;
+use sphpack_neighbors::{Bounds, Domain};
 
 use crate::particles::{Kind, Particles};
 use crate::state::{Damaged, State};
@@ -12,6 +12,8 @@ use crate::state::{Damaged, State};
 #[derive(Debug)]
 pub(super) struct Walls<const D: usize> {
     domain: Domain<D>,
+    /// No particle comes nearer to a side than this, in its spacings.
+    pub(super) margin: f64,
     /// Particles that were put back, with the axis and which way is into the box.
     held: Vec<(u32, usize, f64)>,
 }
@@ -20,6 +22,7 @@ impl<const D: usize> Walls<D> {
     pub(super) fn new(domain: Domain<D>) -> Self {
         Self {
             domain,
+            margin: 0.0,
             held: Vec::new(),
         }
     }
@@ -27,9 +30,9 @@ impl<const D: usize> Walls<D> {
     /// Puts free particles that left the box back onto its side.
     pub(super) fn keep(&mut self, particles: &mut Particles<D>, mobile: &[u32]) {
         self.held.clear();
-        let bounds = self.domain.bounds;
         let open: [bool; D] = self.domain.periodic.map(|periodic| !periodic);
         for &i in mobile {
+            let bounds = self.within(particles, i as usize);
             let p = &mut particles.position[i as usize];
             let is_off =
                 (0..D).any(|k| open[k] && (p[k] <= bounds.min[k] || p[k] >= bounds.max[k]));
@@ -58,6 +61,33 @@ impl<const D: usize> Walls<D> {
                 }
             }
         }
+    }
+
+    /// The room of particle `i`: the box without the margin.
+    fn within(&self, particles: &Particles<D>, i: usize) -> Bounds<D> {
+        if self.margin > 0.0 {
+            (self.domain.bounds).grown(-self.margin * particles.sizes.spacing(i))
+        } else {
+            self.domain.bounds
+        }
+    }
+
+    /// Moves boundary particles out of the margin, off their surfaces; whether any was in it.
+    pub(super) fn clear(&self, particles: &mut Particles<D>, mobile: &[u32]) -> bool {
+        let mut any = false;
+        for &i in mobile {
+            let i = i as usize;
+            if self.margin > 0.0 && particles.kind[i] == Kind::Boundary {
+                let within = self.within(particles, i);
+                let p = &mut particles.position[i];
+                for k in (0..D).filter(|&k| !self.domain.periodic[k]) {
+                    let x = p[k].max(within.min[k]).min(within.max[k]);
+                    any |= x != p[k];
+                    p[k] = x;
+                }
+            }
+        }
+        any
     }
 
     /// Particles that a side holds: which, across which axis, and the sign of the way into the box.

@@ -256,18 +256,37 @@ impl SpacingField<2> for Coarser {
     }
 }
 
-/// Nobody gets one size who asked for many.
+/// Nobody gets one size who asked for many: a method places particles by any field, or refuses it.
 #[test]
-fn a_field_is_refused_until_it_is_followed() {
+fn a_field_is_followed_or_refused() {
     let field: Resolution<2> = Coarser.into();
     assert_eq!((field.uniform(), field.finest()), (None, 0.1));
     assert!((field.at([1.0, 0.0]).value - 0.2).abs() < 1e-15);
     let problem = Problem::new(Domain::new([0.0; 2], [1.0; 2]), field);
-    let refused = problem.pack(&crate::Balanced::default());
+    let packed = problem
+        .pack(&crate::Balanced::default())
+        .expect("a packing");
+    let all: f64 = (0..packed.particles.len())
+        .filter(|&i| packed.particles.kind[i] != Kind::Frozen)
+        .map(|i| packed.particles.volume[i])
+        .sum();
+    assert!((all - 1.0).abs() < 1e-12);
+    assert!(packed.quality().density.linf < 5e-3, "{}", packed.quality());
+    let small = Problem::new(Domain::new([0.0; 2], [0.6, 1.0]), Coarser);
     assert!(matches!(
-        refused,
-        Err(PackingError::Graded { least, greatest }) if (least, greatest) == (0.1, 0.2)
+        small.pack(&crate::Balanced::default()),
+        Err(PackingError::NarrowDomain { axis: 0, .. })
     ));
+    #[cfg(feature = "published")]
+    for refused in [
+        problem.pack(&crate::Hybrid::default()),
+        problem.pack(&crate::Clipped),
+    ] {
+        assert!(matches!(
+            refused,
+            Err(PackingError::Graded { least, greatest }) if (least, greatest) == (0.1, 0.2)
+        ));
+    }
     assert_eq!(
         Problem::new(Domain::new([0.0; 2], [1.0; 2]), 0.1).check(),
         Ok(())

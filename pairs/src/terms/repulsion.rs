@@ -98,6 +98,12 @@ impl Repulsion {
         self.size
     }
 
+    /// Whether nothing repels.
+    #[inline(always)]
+    pub(crate) fn is_none(&self) -> bool {
+        self.reach <= 0.0
+    }
+
     /// From the loop's energies to the scene's.
     #[inline(always)]
     pub(crate) fn energy_scale(&self) -> f64 {
@@ -194,6 +200,8 @@ pub struct RepulsionLanes<S: Simd> {
 impl Term for Repulsion {
     type Sum = RepulsionSum;
     type Lanes<S: Simd> = RepulsionLanes<S>;
+
+    const OWN: bool = false;
 
     fn in_unit(&self, unit: f64) -> Self {
         Self {

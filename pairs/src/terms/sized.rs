@@ -52,6 +52,7 @@ impl Term for Averaged {
     /// Gradient, value, stretch.
     type Lanes<S: Simd> = [f64x8<S>; 5];
 
+    const OWN: bool = false;
     const MEAN: bool = true;
 
     fn own_part(&self) -> f64 {
@@ -134,6 +135,8 @@ impl Term for SizedRepulsion {
     type Sum = SizedRepulsionSum;
     type Lanes<S: Simd> = SizedRepulsionLanes<S>;
 
+    const OWN: bool = false;
+
     fn in_unit(&self, unit: f64) -> Self {
         Self {
             repulsion: self.repulsion.in_unit(unit),
@@ -153,36 +156,38 @@ impl Term for SizedRepulsion {
 
     #[inline(always)]
     fn add<S: Simd, const D: usize>(&self, sums: &mut Self::Lanes<S>, group: &Group<'_, S, D>) {
-        if !group.is_near {
+        if !group.is_near || self.repulsion.is_none() {
             return;
         }
         let one = f64x8::splat(group.simd, 1.0);
-        let smaller = match group.over_mean(self.repulsion.size()) {
-            Some(smaller) => smaller,
-            None => [one; GROUP],
-        };
+        let half = f64x8::splat(group.simd, 0.5);
+        let larger = group.mean_over(self.repulsion.size());
         for j in 0..GROUP {
-            let smaller = smaller[j];
-            let scaled = self.repulsion.pair(
-                group.square[j] * smaller * smaller,
-                group.inverse.0[j] / smaller,
-            );
+            // By how much the pair is larger than what the repulsion is for.
+            let larger = match larger {
+                Some(larger) => larger[j],
+                None => one,
+            };
+            let smaller = one / larger;
+            let inverse = group.inverse.0[j];
+            let scaled =
+                (self.repulsion).pair(group.square[j] * smaller * smaller, inverse * larger);
             let Some([force, mut potential]) = scaled else {
                 continue;
             };
-            let mut push = force * group.inverse.0[j] * smaller;
-            let along = force * group.square[j] * group.inverse.0[j] * smaller * smaller;
-            sums.by_size = along.mul_add(f64x8::splat(group.simd, 0.5), sums.by_size);
+            let mut push = force * inverse * smaller;
+            let along = push * group.square[j] * smaller;
+            sums.by_size = along.mul_add(half, sums.by_size);
             if self.by_volume {
                 for _ in 0..D {
-                    push /= smaller;
-                    potential /= smaller;
+                    push *= larger;
+                    potential *= larger;
                 }
             }
             for k in 0..D {
                 sums.force[k] = push.mul_add(group.apart[j][k], sums.force[k]);
             }
-            sums.energy = potential.mul_add(f64x8::splat(group.simd, 0.5), sums.energy);
+            sums.energy = potential.mul_add(half, sums.energy);
         }
     }
 

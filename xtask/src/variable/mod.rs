@@ -1,6 +1,7 @@
 //! Variable spacing against its bars, scene by scene, and beside the other ways to come to it.
 
 mod judged;
+mod others;
 mod rows;
 
 use std::fmt::Write as _;
@@ -59,7 +60,7 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
         }
     }
     if selection.write {
-        write(&table, &curve)?;
+        write(&table, &others::table()?, &curve)?;
     }
     if missed.is_empty() {
         Ok(())
@@ -152,7 +153,7 @@ fn line(row: &Row, outcome: &Outcome, judged: &Judged, misses: &[String]) -> Str
     )
 }
 
-fn write(table: &str, curve: &[(f64, Outcome)]) -> Result<(), String> {
+fn write(table: &str, others: &str, curve: &[(f64, Outcome)]) -> Result<(), String> {
     let docs = root().join("docs");
     let save = |name: &str, text: &str| {
         let path = docs.join(name);
@@ -216,6 +217,10 @@ fn write(table: &str, curve: &[(f64, Outcome)]) -> Result<(), String> {
          Density hardly depends on growth. The kernel gradient sum grows with it: a row of particles loses growth − 1 of its\n\
          particles to the next, so that many sit at a dislocation; their density can be levelled, D ways to go and one Γ, their\n\
          gradient cannot.\n\n\
+         ## Beside others\n\n\
+         Squares halved where the field asks for it, and shifted by −h² ∇Γ/4 a step while sizes follow the field; neither knows of the\n\
+         circle's surface.\n\n\
+         {others}\n\
          ## How\n\n\
          1. The spacing s(x) is on each body's surface what the scene says, and grows from there with the distance d as\n\
             s + (growth − 1) (√(d² + 9 s²) − 3 s), up to the coarsest.\n\

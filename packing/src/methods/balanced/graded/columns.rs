@@ -14,7 +14,7 @@ pub(super) struct Columns<const D: usize> {
     pub(super) spacing: Vec<f64>,
     pub(super) smoothing_length: Vec<f64>,
     pub(super) support: Vec<f64>,
-    /// κ (Γ − 1), held between −1 and 1.
+    /// κ (Γ − Γ₀), held between −1 and 1.
     pub(super) pressure: Vec<f64>,
 }
 

@@ -30,7 +30,7 @@ pub(super) enum Aim {
     /// Sizes stay with the particles. By either h, or by (h_i + h_j)/2 where spacings grow by more than 10 %, particles of different
     /// sizes mix.
     Order,
-    /// ½ κ Σ (Γ_i − 1)² and the repulsion, the same for all sizes: levels the density. Every size is that of the field
+    /// ½ κ Σ (Γ_i − Γ₀)² with the lattice's Γ₀ and the repulsion, the same for all sizes: levels the density. Every size is that of the field
     /// where the particle is, every region keeps its volume.
     Level {
         /// κ.
@@ -48,6 +48,8 @@ pub(super) struct GradedEnergy<'a, const D: usize> {
     pub(super) h_over_spacing: f64,
     /// The finest spacing, scene units.
     finest: f64,
+    /// Γ₀ of the lattice, which by a short kernel is not 1: no filling by particles of these sizes comes nearer to 1.
+    target: f64,
     /// The region of every particle, and the volume of the free particles of each.
     regions: Regions,
     pub(super) mirror: Mirror<D>,
@@ -105,6 +107,7 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
             kernel: problem.kernel,
             h_over_spacing: problem.h_over_spacing,
             finest,
+            target: (problem.chosen_lattice()).gamma(problem.kernel, problem.h_over_spacing),
             regions,
             mirror: Mirror::new(problem.domain, problem.resolution.clone(), sight),
             list: CellList::new(&problem.domain, support).with_skin(SKIN),
@@ -184,13 +187,13 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
         })
     }
 
-    /// The largest |Γ − 1|, by whichever h the energy takes, and the largest h|∇Γ| of free particles.
-    pub(super) fn figures(&mut self) -> [f64; 2] {
+    /// The largest |Γ − Γ₀|, by whichever h the energy takes, its root mean square, and the largest h|∇Γ| of free particles.
+    pub(super) fn figures(&mut self) -> [f64; 3] {
         self.evaluate();
         let particles = &*self.movable.particles;
         let targets = self.list.target_particles();
         let of = |slot: usize| &self.sums[slot].0;
-        let level = largest(targets.len(), |slot| (of(slot).value - 1.0).abs());
+        let level = largest(targets.len(), |slot| (of(slot).value - self.target).abs());
         let calm = largest(targets.len(), |slot| {
             let i = targets[slot] as usize;
             if particles.kind[i] == Kind::Free {
@@ -199,7 +202,9 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
                 0.0
             }
         });
-        [level, calm]
+        let count = self.sums.len().max(1) as f64;
+        let squares = blocked_sum(&self.sums, |sum| (sum.0.value - self.target).powi(2));
+        [level, (squares / count).sqrt(), calm]
     }
 
     /// Adds what is beyond open sides to the particles, frozen, as far as a kernel sees whose support is so many spacings.
@@ -322,7 +327,7 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
                     .sum_sized::<D>((Averaged::GATHER, repulsion), &mut self.sums);
                 let most = MOST_PRESSURE / stiffness;
                 let excess = |slot: usize| {
-                    let off = self.sums[slot].0.value - 1.0;
+                    let off = self.sums[slot].0.value - self.target;
                     (off, off.clamp(-most, most))
                 };
                 for slot in 0..targets {

@@ -79,6 +79,7 @@ pub(super) fn pack<const D: usize>(
     let reach = problem.support() * problem.resolution.range()[1] / problem.spacing();
     let mut movable = Movable::new(&mut particles, &surfaces, problem.domain, reach);
     movable.keep_sides(&problem.bodies, &problem.domain);
+    movable.keep_off_sides(OFF_SIDES);
     let mut energy = GradedEnergy::new(problem, movable, regions, settling.repulsion[0]);
     let stop_reason = settle::run(&mut energy, settling, log)?;
     log.seconds.projection += energy.movable.seconds;
@@ -95,6 +96,10 @@ pub(super) fn pack<const D: usize>(
     packed.excess = excess;
     Ok(parts.gather(packed, whole, |body| surface(whole, body).ok().flatten()))
 }
+
+/// No particle comes nearer to an open side than this, in its spacings: beyond is its mirror image, and where both meet nothing
+/// tells which way is apart.
+const OFF_SIDES: f64 = 0.3;
 
 /// The particle surface of a body; `None` where it is too thin to have one.
 fn surface<const D: usize>(

@@ -13,9 +13,12 @@ use crate::state::{Damaged, State, Value};
 const STIFFNESS: f64 = 30.0;
 const LEVEL_REPULSION: f64 = 4e-4;
 
-/// Evaluations of each stage, at most, times the minimiser's pace.
+/// Evaluations of each stage, at most, times the minimiser's pace: order is won while sizes are frozen. Levelling goes on for as
+/// many again as come behind unless the largest |Γ − 1| and its root mean square are below [`EVEN`]: 50 : 1 around a circle asks
+/// for them.
 const ORDERING: usize = 40;
-const LEVELLING: usize = 69;
+const LEVELLING: [usize; 2] = [69, 19];
+const EVEN: [f64; 2] = [1e-3, 1.5e-4];
 
 /// Evaluations between two lines of the history.
 const NOTE_EVERY: usize = 10;
@@ -62,7 +65,9 @@ pub(super) fn run<const D: usize>(
         }
         let spent = course.energy.evaluations - course.begun;
         if course.is_levelling {
-            if spent >= LEVELLING * pace || residual < LEVEL || step == Step::Stuck {
+            let [usual, more] = LEVELLING.map(|evaluations| evaluations * pace);
+            let is_over = spent >= usual && (spent >= usual + more || course.is_even());
+            if is_over || residual < LEVEL || step == Step::Stuck {
                 break StopReason::Converged;
             }
         } else if spent >= ORDERING * pace || residual < ORDERED || step == Step::Stuck {
@@ -95,10 +100,15 @@ impl<const D: usize> Course<'_, '_, D> {
         self.energy.pursue(aim, LEVEL_REPULSION);
     }
 
+    fn is_even(&mut self) -> bool {
+        let [level, rms, _] = self.energy.figures();
+        level < EVEN[0] && rms < EVEN[1]
+    }
+
     fn note(&mut self, log: &mut RunLog<'_>) {
         self.noted = self.energy.evaluations;
         let energy = self.energy.value() / self.energy.len().max(1) as f64;
-        let [level, calm] = self.energy.figures();
+        let [level, _, calm] = self.energy.figures();
         log.note_figures(energy, calm, level);
     }
 }
