@@ -14,8 +14,6 @@ mod tests;
 pub struct Work {
     /// Evaluations of density and force until particles are at rest, in the middle of what scenes take.
     pub evaluations: f64,
-    /// Evaluations before these, which no limit of iterations ends.
-    pub before: f64,
     /// The time of one over that of a plain sum over the pairs.
     pub times_plain: f64,
     /// Neighbour lists that are there at a time.
@@ -34,7 +32,6 @@ impl Work {
     /// Of a method that evaluates once, and does nothing but sum over the pairs of one list.
     pub const PLAIN: Self = Self {
         evaluations: 1.0,
-        before: 0.0,
         times_plain: 1.0,
         lists: 1.0,
         confined_sides: 0.0,
@@ -45,7 +42,7 @@ impl Work {
 
     /// Evaluations until the end, where so many iterations are allowed.
     pub fn evaluations_within(&self, max_iterations: usize) -> f64 {
-        self.before + self.evaluations.min(max_iterations as f64)
+        self.evaluations.min(max_iterations as f64)
     }
 }
 
