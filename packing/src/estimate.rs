@@ -1,6 +1,6 @@
-//! What a packing will take, told from volumes alone.
+//! What a packing will take, told before it.
 
-use crate::confinement::{PATCHES_ALONG_EDGE, patches_over_spacing};
+use crate::confinement::{PATCHES_ALONG_EDGE, expected_patches};
 use crate::problem::{PackingError, Problem};
 use crate::slabs;
 use sphpack_neighbors::point;
@@ -60,8 +60,10 @@ pub struct Estimate {
     /// Bytes of these that are not free again when particles are written.
     pub kept_bytes: f64,
     /// Core-seconds of one evaluation of density and force of what moves, where a pair takes
-    /// [`pace::REFERENCE`](crate::pace::REFERENCE), to a factor of about two.
+    /// [`pace::REFERENCE`](crate::pace::REFERENCE), to a factor of about two; without what confines.
     pub seconds_per_evaluation: f64,
+    /// Core-seconds of one evaluation for the surfaces that confine, likewise.
+    pub confining_seconds: f64,
     /// Core-seconds of all the rest, likewise: placing particles, measuring and writing them.
     pub seconds_beside: f64,
 }
@@ -103,13 +105,15 @@ const PATCH_BYTES: [f64; 2] = [430.0, 1300.0];
 const KEPT_PATCH_BYTES: [f64; 2] = [130.0, 500.0];
 const CUTTING_SECONDS: f64 = 1.8e-5;
 
-/// Core-seconds of a patch that confines all particles within its reach, for each ∆s^D of a cube as wide as the
-/// support: 33 ns for a ball of radius 3 ∆s, 8 ns for a box 4 ∆s thick, whose fluid is one particle deep.
-const CONFINING_SECONDS: f64 = 1.5e-8;
+/// Core-seconds of a patch that confines all particles within its reach on one side, for each ∆s^D of a cube as wide as the
+/// support, where [`pace`](crate::pace) is 1: 36 … 58 ns for both sides of balls, tori, ellipsoids, boxes and cylinders of 1 … 5 ∆s in
+/// space, 28 … 75 ns for discs and squares.
+const CONFINING_SECONDS: f64 = 2.3e-8;
 
 impl<const D: usize> Problem<D> {
-    /// What the packing by a method of such work will need, from volumes alone, where particles within `moves` (scene
-    /// units) of a surface settle and the others stay where they are; allocates nothing.
+    /// What the packing by a method of such work will need, from volumes and areas, where particles within `moves` (scene
+    /// units) of a surface settle and the others stay where they are. Where surfaces confine, some places on them tell how finely
+    /// they will be cut.
     ///
     /// # Errors
     /// Those of [`Problem::check`].
@@ -143,7 +147,9 @@ impl<const D: usize> Problem<D> {
         let sides = work.confined_sides;
         let (mut patches, mut confining) = (0.0, 0.0);
         if sides > 0.0 {
-            patches = on_surface * patches_over_spacing(D) + self.sharp() * PATCHES_ALONG_EDGE;
+            let smooth = (self.bodies.iter())
+                .map(|body| expected_patches(body.surface.as_ref(), self.spacing()));
+            patches = smooth.sum::<f64>() + self.sharp() * PATCHES_ALONG_EDGE;
             let kept = (sides - 1.0) * KEPT_PATCH_BYTES[D - 2];
             confining = patches * (PATCH_BYTES[D - 2] + kept);
         }
@@ -168,8 +174,8 @@ impl<const D: usize> Problem<D> {
             neighbors,
             memory_bytes: LEAST_BYTES + peak,
             kept_bytes: LEAST_BYTES + kept,
-            seconds_per_evaluation: work.times_plain * sum
-                + sides * patches * in_support * CONFINING_SECONDS,
+            seconds_per_evaluation: work.times_plain * sum,
+            confining_seconds: sides * patches * in_support * CONFINING_SECONDS,
             seconds_beside: all * END_SECONDS
                 + particles * work.placing
                 + on_surface * work.sampling[D - 2]
