@@ -10,12 +10,36 @@ const FALLBACK_BYTES: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
 /// little thing, and is soon out of memory where there is some.
 const THREAD_HEAP_BYTES: u64 = 64 << 20;
 
+/// Address space of a thread's stack, 2 MiB, with what guards it and what it keeps for itself.
+const THREAD_STACK_BYTES: u64 = 3 << 20;
+
+/// Threads beside those that compute, as far as address space goes: one waits for Ctrl-C; and a heap takes twice its size for a
+/// moment.
+const MORE_THREADS: u64 = 2;
+
+/// Address space for all that comes before particles.
+const LEAST_BYTES: u64 = 8 << 20;
+
 /// Memory that can be had without swapping and within this process's limits, bytes. Reads a few small files.
 pub(crate) fn available_bytes() -> f64 {
     available_in(Path::new("/"), || {
-        // One waits for Ctrl-C; and a heap takes twice its size for a moment.
-        (rayon::current_num_threads() as u64 + 2) * THREAD_HEAP_BYTES
+        (rayon::current_num_threads() as u64 + MORE_THREADS) * THREAD_HEAP_BYTES
     })
+}
+
+/// Address space that is left under a limit (ulimit -v), bytes.
+pub(crate) fn address_space_left() -> Option<u64> {
+    space_left(Path::new("/"))
+}
+
+fn space_left(root: &Path) -> Option<u64> {
+    left(root, "Max address space", "VmSize:")
+}
+
+/// Address space that so many threads that compute want, with all that comes before particles, bytes. Where there is less, a
+/// thread that starts finds no room for its heap, or for what it keeps for itself, and that ends the process.
+pub(crate) fn address_space_of(threads: u64) -> u64 {
+    (threads + MORE_THREADS) * (THREAD_HEAP_BYTES + THREAD_STACK_BYTES) + LEAST_BYTES
 }
 
 /// The same, of a system whose files are below `root`, where threads want so much address space.
@@ -30,15 +54,16 @@ fn available_in(root: &Path, of_threads: impl Fn() -> u64) -> f64 {
 
 /// What the limits of the process itself leave (ulimit -v, ulimit -d).
 fn limited(root: &Path, of_threads: impl Fn() -> u64) -> Option<f64> {
-    let left = |limit: &str, used: &str| {
-        let most = soft_limit(root, limit)?;
-        Some(most.saturating_sub(kibibytes(root, "proc/self/status", used).unwrap_or(0)))
-    };
-    let space = left("Max address space", "VmSize:");
     least([
-        space.map(|bytes| bytes.saturating_sub(of_threads()) as f64),
-        left("Max data size", "VmData:").map(|bytes| bytes as f64),
+        space_left(root).map(|bytes| bytes.saturating_sub(of_threads()) as f64),
+        left(root, "Max data size", "VmData:").map(|bytes| bytes as f64),
     ])
+}
+
+/// What a limit leaves of what is used, by their names in the system's lists.
+fn left(root: &Path, limit: &str, used: &str) -> Option<u64> {
+    let most = soft_limit(root, limit)?;
+    Some(most.saturating_sub(kibibytes(root, "proc/self/status", used).unwrap_or(0)))
 }
 
 /// The longest file that this process may write (ulimit -f), bytes; `None` where there is no limit, or nobody says.

@@ -13,14 +13,20 @@ mod facets;
 #[cfg(test)]
 mod tests;
 
-use facets::{Facet, Patch, facets};
+use facets::{Facet, Patch, facets, finer_by_bends};
 
 /// Edge of the cells that cut the surface into patches, in ∆s: one patch is one term of the gradient's sum.
 const CELL_OVER_SPACING: [f64; 2] = [1.0 / 12.0, 1.0 / 4.0];
 
-/// Patches on a ∆s^(D−1) of surface: 1.5 for each face of a cell.
-pub(crate) fn patches_over_spacing(dimension: usize) -> f64 {
+/// Patches on a ∆s^(D−1) of flat surface: 1.5 for each face of a cell.
+fn patches_over_spacing(dimension: usize) -> f64 {
     1.5 * CELL_OVER_SPACING[dimension - 2].powi(1 - dimension as i32)
+}
+
+/// About how many patches a surface will have on either side, those along sharp edges not among them.
+pub(crate) fn expected_patches<const D: usize>(surface: &dyn Surface<D>, spacing: f64) -> f64 {
+    let finer = finer_by_bends(surface, CELL_OVER_SPACING[D - 2] * spacing);
+    surface.measure() / spacing.powi(D as i32 - 1) * patches_over_spacing(D) * finer
 }
 
 /// Patches along a ∆s of a sharp edge in space, where cells are a quarter as large: by the memory of two boxes.

@@ -1,6 +1,6 @@
-//! What a packing will take, told from volumes alone.
+//! What a packing will take, told before it.
 
-use crate::confinement::{PATCHES_ALONG_EDGE, patches_over_spacing};
+use crate::confinement::{PATCHES_ALONG_EDGE, expected_patches};
 use crate::problem::{PackingError, Problem};
 use crate::slabs;
 use sphpack_neighbors::point;
@@ -14,8 +14,6 @@ mod tests;
 pub struct Work {
     /// Evaluations of density and force until particles are at rest, in the middle of what scenes take.
     pub evaluations: f64,
-    /// Evaluations before these, which no limit of iterations ends.
-    pub before: f64,
     /// The time of one over that of a plain sum over the pairs.
     pub times_plain: f64,
     /// Neighbour lists that are there at a time.
@@ -34,7 +32,6 @@ impl Work {
     /// Of a method that evaluates once, and does nothing but sum over the pairs of one list.
     pub const PLAIN: Self = Self {
         evaluations: 1.0,
-        before: 0.0,
         times_plain: 1.0,
         lists: 1.0,
         confined_sides: 0.0,
@@ -45,7 +42,7 @@ impl Work {
 
     /// Evaluations until the end, where so many iterations are allowed.
     pub fn evaluations_within(&self, max_iterations: usize) -> f64 {
-        self.before + self.evaluations.min(max_iterations as f64)
+        self.evaluations.min(max_iterations as f64)
     }
 }
 
@@ -63,8 +60,10 @@ pub struct Estimate {
     /// Bytes of these that are not free again when particles are written.
     pub kept_bytes: f64,
     /// Core-seconds of one evaluation of density and force of what moves, where a pair takes
-    /// [`pace::REFERENCE`](crate::pace::REFERENCE), to a factor of about two.
+    /// [`pace::REFERENCE`](crate::pace::REFERENCE), to a factor of about two; without what confines.
     pub seconds_per_evaluation: f64,
+    /// Core-seconds of one evaluation for the surfaces that confine, likewise.
+    pub confining_seconds: f64,
     /// Core-seconds of all the rest, likewise: placing particles, measuring and writing them.
     pub seconds_beside: f64,
 }
@@ -106,9 +105,10 @@ const PATCH_BYTES: [f64; 2] = [430.0, 1300.0];
 const KEPT_PATCH_BYTES: [f64; 2] = [130.0, 500.0];
 const CUTTING_SECONDS: f64 = 1.8e-5;
 
-/// Core-seconds of a patch that confines all particles within its reach, for each ∆s^D of a cube as wide as the
-/// support: 33 ns for a ball of radius 3 ∆s, 8 ns for a box 4 ∆s thick, whose fluid is one particle deep.
-const CONFINING_SECONDS: f64 = 1.5e-8;
+/// Core-seconds of a patch that confines all particles within its reach on one side, for each ∆s^D of a cube as wide as the
+/// support, where [`pace`](crate::pace) is 1: 36 … 58 ns for both sides of balls, tori, ellipsoids, boxes and cylinders of 1 … 5 ∆s in
+/// space, 28 … 75 ns for discs and squares.
+const CONFINING_SECONDS: f64 = 2.3e-8;
 
 /// Where spacings differ: bytes of a particle beside those of others, of a neighbour in its list; the time of an evaluation over
 /// that of a uniform one, and core-seconds until a particle is at its place.
@@ -118,8 +118,9 @@ const GRADED_SUMS: f64 = 1.5;
 const GRADED_PLACING: f64 = 3e-5;
 
 impl<const D: usize> Problem<D> {
-    /// What the packing by a method of such work will need, from volumes alone, where particles within `moves` (scene
-    /// units) of a surface settle and the others stay where they are; allocates nothing.
+    /// What the packing by a method of such work will need, from volumes and areas, where particles within `moves` (scene
+    /// units) of a surface settle and the others stay where they are. Where surfaces confine, some places on them tell how finely
+    /// they will be cut.
     ///
     /// # Errors
     /// Those of [`Problem::check`].
@@ -156,7 +157,9 @@ impl<const D: usize> Problem<D> {
         let sides = work.confined_sides;
         let (mut patches, mut confining) = (0.0, 0.0);
         if sides > 0.0 {
-            patches = on_surface * patches_over_spacing(D) + self.sharp() * PATCHES_ALONG_EDGE;
+            let smooth = (self.bodies.iter())
+                .map(|body| expected_patches(body.surface.as_ref(), self.spacing()));
+            patches = smooth.sum::<f64>() + self.sharp() * PATCHES_ALONG_EDGE;
             let kept = (sides - 1.0) * KEPT_PATCH_BYTES[D - 2];
             confining = patches * (PATCH_BYTES[D - 2] + kept);
         }
@@ -181,8 +184,8 @@ impl<const D: usize> Problem<D> {
             neighbors,
             memory_bytes: LEAST_BYTES + peak,
             kept_bytes: LEAST_BYTES + kept,
-            seconds_per_evaluation: work.times_plain * sum
-                + sides * patches * in_support * CONFINING_SECONDS,
+            seconds_per_evaluation: work.times_plain * sum,
+            confining_seconds: sides * patches * in_support * CONFINING_SECONDS,
             seconds_beside: all * END_SECONDS
                 + particles * work.placing
                 + on_surface * work.sampling[D - 2]
@@ -209,6 +212,7 @@ impl<const D: usize> Problem<D> {
             memory_bytes: LEAST_BYTES + peak.max(kept),
             kept_bytes: LEAST_BYTES + kept,
             seconds_per_evaluation: GRADED_SUMS * work.times_plain * particles * sum,
+            confining_seconds: 0.0,
             seconds_beside: all * END_SECONDS + particles * GRADED_PLACING,
         }
     }

@@ -246,7 +246,7 @@ fn standard() {
 fn coupled() {
     let coupled = Coupled {
         apart_iterations: 150,
-        max_iterations: 200,
+        max_iterations: 500,
         ..Coupled::default()
     };
     check(&|observer| coupled.pack_in(&discs(0.12), &mut RunLog::new(observer)));

@@ -14,7 +14,7 @@ use crate::chart::{Axis, Chart, Scale, Series};
 use crate::figures;
 use crate::sections::Section;
 use crate::selection::Selection;
-use crate::shipped::load;
+use crate::shipped::{iterations_together, load};
 use crate::workspace::root;
 
 const HEAD: &str = "\
@@ -99,9 +99,11 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             };
             scene.spacing = spacing;
             scene.packing.method = method;
-            if dimension == 3 {
-                scene.packing.max_iterations = PATIENCE_IN_SPACE;
-            }
+            let most = match dimension {
+                2 => scene.packing.max_iterations,
+                _ => PATIENCE_IN_SPACE,
+            };
+            scene.packing.max_iterations = iterations_together(method, most);
             scene.quality.kernel = Some(KernelKind::Quintic);
             scene.quality.h_over_spacing = Some(1.2);
             let start = Instant::now();

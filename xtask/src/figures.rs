@@ -8,7 +8,7 @@ use sphpack_kernels::KernelKind;
 use sphpack_packing::{Kind, Packed, Silent};
 
 use crate::selection::Selection;
-use crate::shipped::load;
+use crate::shipped::{iterations_together, load};
 
 const VARIATION: &str = "\
 | scene | ∆s | method | total variation, paper 001 | ours, all particles | ours, to ∆s inside |
@@ -38,6 +38,7 @@ pub(crate) fn variation(selection: &Selection) -> Result<String, String> {
         };
         scene.spacing = spacing;
         scene.packing.method = method;
+        scene.packing.max_iterations = iterations_together(method, scene.packing.max_iterations);
         scene.quality.kernel = Some(KernelKind::Quintic);
         scene.quality.h_over_spacing = Some(1.0);
         let outcome =

@@ -3,9 +3,19 @@
 use std::fs;
 
 use sphpack::Scene;
+use sphpack::scene::Method;
+use sphpack_packing::Coupled;
 
 use crate::selection::Selection;
 use crate::workspace::root;
+
+/// So many iterations in which all particles settle together: what comes before that, with the method coupled, is beside.
+pub(crate) fn iterations_together(method: Method, most: usize) -> usize {
+    match method {
+        Method::Coupled => most + 2 * Coupled::default().apart_iterations,
+        _ => most,
+    }
+}
 
 /// A shipped scene; `None` where its body's file is not there.
 pub(crate) fn load(name: &str, selection: &Selection) -> Result<Option<Scene>, String> {

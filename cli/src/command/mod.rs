@@ -26,11 +26,23 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::Error;
-use crate::error::{BAD_INPUT, DONE};
+use crate::error::{BAD_INPUT, DONE, FAILED};
+use crate::memory::address_space_left;
 use arguments::{Arguments, Command};
+
+/// Address space without which not even a message can be made.
+const LEAST_BYTES: u64 = 1 << 20;
 
 /// Runs the command with the process's arguments.
 pub fn main() -> ExitCode {
+    if let Some(left) = address_space_left().filter(|&left| left < LEAST_BYTES) {
+        let _ = writeln!(
+            std::io::stderr(),
+            "sphpack: the limit of address space (ulimit -v) leaves {} KiB of memory, too little for anything; raise it",
+            left >> 10
+        );
+        return ExitCode::from(FAILED);
+    }
     let result = match Arguments::try_parse() {
         Ok(arguments) => match arguments.command {
             Command::Pack(pack) => pack::run(&pack),

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use sphpack_neighbors::point;
+use sphpack_packing::pace::Pace;
 use sphpack_packing::problem::size;
-use sphpack_packing::{Kind, StopReason, pace};
+use sphpack_packing::{Kind, StopReason};
 
 use super::arguments::PackArguments;
 use super::duration::duration;
@@ -163,9 +164,9 @@ fn dry_run(scene: &Scene, opened: Opened, is_quiet: bool) -> Result<u8, Error> {
     }
     let estimate = plan.estimate;
     let evaluations = scene.typical_evaluations();
-    let slowness = pace::slowness();
-    let each = slowness * estimate.seconds_per_evaluation;
-    let work = slowness * estimate.seconds_beside + evaluations * each;
+    let pace = Pace::measured(&estimate);
+    let each = estimate.seconds_of_one(pace);
+    let work = estimate.seconds(pace, evaluations);
     let seconds = plan.building_seconds + work / rayon::current_num_threads() as f64;
     let read = summary::read(&plan.read);
     let fewer = plan.times_fewer.map_or_else(String::new, |times| {

@@ -141,6 +141,56 @@ fn little_address_space_is_no_abort() {
     }
 }
 
+/// The least limit of address space, KiB, under which the command speaks at all: below, the system does not load it, or its runtime
+/// does not begin.
+#[cfg(target_os = "linux")]
+fn least_address_space(desk: &Desk) -> usize {
+    let speaks = |limit: usize| {
+        let (status, _) = limited(desk, &format!("ulimit -v {limit}"), &["--version"]);
+        matches!(status, Some(0 | 1))
+    };
+    let (mut low, mut high) = (8_000, 400_000);
+    while high - low > 20 {
+        let middle = usize::midpoint(low, high);
+        if speaks(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    high
+}
+
+/// Threads start where there is room for them, or not at all: one that finds none for its stack, for its heap, or for what it
+/// keeps for itself ends the process.
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_without_address_space_are_no_abort() {
+    let desk = Desk::new().with("scene.toml", CYLINDER);
+    let least = least_address_space(&desk);
+    // By stacks, 2 MiB each, and by heaps, 64 MiB.
+    let stacks = (0..120).map(|k| least + 75 * k);
+    let heaps = (1..5).flat_map(|k| (0..10).map(move |j| 65_536 * k + 700 * j));
+    for limit in stacks.chain(heaps.map(|more| least + more)) {
+        for threads in ["1", "4"] {
+            let arguments = ["pack", "scene.toml", "--dry-run", "--threads", threads];
+            let (status, said) = limited(&desk, &format!("ulimit -v {limit}"), &arguments);
+            assert!(matches!(status, Some(0..=2)), "{limit}: {status:?}, {said}");
+            assert!(status == Some(0) || said.contains("memory"), "{said}");
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn fewer_threads_are_said() {
+    let desk = Desk::new().with("scene.toml", CYLINDER);
+    let command = "ulimit -v 400000; export RAYON_NUM_THREADS=64";
+    let (status, said) = limited(&desk, command, &["pack", "scene.toml", "--dry-run"]);
+    assert_eq!(status, Some(0), "{said}");
+    assert!(said.contains("not one for each core"), "{said}");
+}
+
 /// What is read to be measured takes several times its own size.
 #[cfg(target_os = "linux")]
 #[test]

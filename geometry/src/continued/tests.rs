@@ -64,6 +64,7 @@ fn is_like_images<const D: usize>(
     count: usize,
 ) {
     let mut held = 0;
+    let (size, corners) = (domain.bounds.size(), body.features().corners);
     for p in places(domain, count) {
         let is_in = is_held(body, domain, p);
         held += usize::from(is_in);
@@ -96,7 +97,15 @@ fn is_like_images<const D: usize>(
                 hit.point[k] - domain.bounds.min[k] > far
                     && domain.bounds.max[k] - hit.point[k] > far
             });
-            if is_off_sides {
+            // A body is thinner than that beside a sharp corner.
+            let is_off_corners = corners.iter().all(|&corner| {
+                let mut to = point::sub(hit.point, corner);
+                for k in (0..D).filter(|&k| domain.periodic[k]) {
+                    to[k] -= size[k] * (to[k] / size[k]).round();
+                }
+                point::norm(to) > 20.0 * far
+            });
+            if is_off_sides && is_off_corners {
                 let meets = beside(-far) && !beside(far);
                 assert!(meets || (D == 2 && is_crossed(far)), "{p:?}: {hit:?}");
             }
@@ -120,26 +129,19 @@ fn star(center: [f64; 2], radii: &[f64], turn: f64) -> Outline {
 }
 
 /// The side of an image passes the nearest point of another to within a ten-millionth: inside and outside meet around it, not
-/// along the normal.
+/// along the normal. The nearest point is three millionths from a corner of 27°, where the body is about a millionth thick.
 #[test]
-fn a_place_nearest_to_where_two_sides_cross() {
-    let radii = [
-        1.0207966573685168,
-        0.3,
-        0.3,
-        1.2307157820907204,
-        0.9264695536071336,
-        0.3,
-        1.2906177601485935,
-    ];
-    let body = star(
-        [0.3598797583413721, -0.22808293411499847],
-        &radii,
-        3.601110879973654,
-    );
-    let domain = plane([0.0; 2], [2.0, 1.7], [true, false]);
-    let continued = body.continued(&domain).expect("it passes a side");
-    is_like_images(&continued, &body, &domain, 400);
+fn places_nearest_to_where_two_sides_meet() {
+    // Centre, turn and radii of stars.
+    let crossing = "0.3598797583413721 -0.22808293411499847 3.601110879973654 1.0207966573685168 0.3 0.3 1.2307157820907204 0.9264695536071336 0.3 1.2906177601485935";
+    let sharp = "2.4682379025905745 -0.41096213541078985 4.687277715556838 0.3 1.3517954365700184 0.6065663989073452";
+    for drawn in [crossing, sharp] {
+        let drawn: Vec<f64> = drawn.split(' ').map(|x| x.parse().unwrap()).collect();
+        let body = star([drawn[0], drawn[1]], &drawn[3..], drawn[2]);
+        let domain = plane([0.0; 2], [2.0, 1.7], [true, false]);
+        let continued = body.continued(&domain).expect("it passes a side");
+        is_like_images(&continued, &body, &domain, 400);
+    }
 }
 
 proptest! {

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use sphpack_geometry::{Closest, Surface};
+use sphpack_neighbors::random::Congruential;
 use sphpack_neighbors::{Bounds, point};
 
 /// A flat piece of a surface: a segment in the plane, a triangle in space.
@@ -56,6 +57,62 @@ const FINER: u32 = 2;
 
 /// Along the longest edge of a body's box, about as many cells at the start of the descent.
 const COARSEST: f64 = 8.0;
+
+/// Places at which it is looked how finely a surface is cut.
+const PROBES: usize = 200;
+
+/// How many cells a surface takes for one that it would take if nothing bent: about, by some places on it that are away from
+/// sharp edges.
+pub(crate) fn finer_by_bends<const D: usize>(surface: &dyn Surface<D>, size: f64) -> f64 {
+    let mut places = surface.scatter(PROBES);
+    let edges = surface.features().edges;
+    places.retain(|hit| {
+        let mut sides = edges.iter().flat_map(|edge| edge.windows(2));
+        sides.all(|side| from_segment(hit.point, side[0], side[1]) > 2.0 * size)
+    });
+    if places.is_empty() {
+        return 1.0;
+    }
+    let mut random = Congruential::new(1);
+    let cells = |hit: &Closest<D>| {
+        let within: [f64; D] = std::array::from_fn(|_| random.unit());
+        let mut edge = size;
+        let mut cells = 1.0;
+        for _ in 0..FINER {
+            let corners: Vec<Closest<D>> = (0..1_usize << D)
+                .map(|corner| {
+                    let of = |k: usize| (corner >> k & 1) as f64 - within[k];
+                    surface.closest(std::array::from_fn(|k| hit.point[k] + edge * of(k)))
+                })
+                .collect();
+            if !bends(corners.iter()) {
+                break;
+            }
+            cells *= f64::from(1_u32 << (D - 1));
+            edge *= 0.5;
+        }
+        cells
+    };
+    places.iter().map(cells).sum::<f64>() / places.len() as f64
+}
+
+/// How far a place is from a segment.
+fn from_segment<const D: usize>(p: [f64; D], a: [f64; D], b: [f64; D]) -> f64 {
+    let (along, to) = (point::sub(b, a), point::sub(p, a));
+    let square = point::dot(along, along);
+    let t = if square > 0.0 {
+        (point::dot(to, along) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    point::distance(p, point::add_scaled(a, t, along))
+}
+
+/// Whether normals turn by more than a cell may have.
+fn bends<'a, const D: usize>(mut hits: impl Iterator<Item = &'a Closest<D>>) -> bool {
+    let first = hits.next().map_or([0.0; D], |hit| hit.normal);
+    hits.any(|hit| point::dot(hit.normal, first) < TURN)
+}
 
 /// The facets of one cell, together.
 pub(crate) type Patch<const D: usize> = Vec<Facet<D>>;
@@ -123,10 +180,7 @@ impl<const D: usize> Grid<'_, D> {
         }
         if width <= 1 << FINER {
             let nodes = self.corners(cell, width);
-            let bends = nodes[1..]
-                .iter()
-                .any(|node| point::dot(node.1.normal, nodes[0].1.normal) < TURN);
-            if !bends || width == 1 {
+            if width == 1 || !bends(nodes.iter().map(|node| &node.1)) {
                 let patch = self.march(&nodes);
                 if !patch.is_empty() {
                     out.push(patch);

@@ -1,6 +1,6 @@
 //! Estimates follow what is packed, and how.
 
-use sphpack_geometry::{Ball, Cuboid};
+use sphpack_geometry::{Ball, Cuboid, Ellipsoid, Surface, Torus};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::Domain;
 
@@ -76,9 +76,7 @@ fn more_surface_and_longer_kernels_are_confined_longer() {
         confined_sides: 2.0,
         ..PLAIN
     };
-    let confining = |problem: &Problem<3>| {
-        of(problem, &confined).seconds_per_evaluation - of(problem, &PLAIN).seconds_per_evaluation
-    };
+    let confining = |problem: &Problem<3>| of(problem, &confined).confining_seconds;
     let (small, large) = (ball(3.0), ball(6.0));
     assert!((confining(&large) / confining(&small) - 4.0).abs() < 0.1);
     let mut long = ball(3.0);
@@ -110,20 +108,34 @@ fn sharp_edges_are_cut_finer() {
     assert!(bytes(&cube) > 1.5 * bytes(&ball(radius)));
 }
 
+/// Patches of a surface within a box of half as many ∆s along an edge, over those that are expected.
+fn patches_over_expected<const D: usize>(surface: &dyn Surface<D>, half: f64) -> f64 {
+    let domain = Domain::new([-half; D], [half; D]);
+    let confinement = Confinement::inside(surface, &domain, KernelKind::WendlandC2, 1.3, 1.0);
+    confinement.patches() as f64 / expected_patches(surface, 1.0)
+}
+
 #[test]
 fn patches_are_about_as_many_as_reckoned() {
-    let body = Ball::new([0.0; 3], 4.0).expect("a ball");
-    let domain = Domain::new([-8.0; 3], [8.0; 3]);
-    let confinement = Confinement::inside(&body, &domain, KernelKind::WendlandC2, 1.3, 1.0);
-    let reckoned = sphpack_geometry::Surface::<3>::measure(&body) * patches_over_spacing(3);
-    let ratio = confinement.patches() as f64 / reckoned;
-    assert!((0.8..1.25).contains(&ratio), "{ratio}");
-    let body = Ball::new([0.0; 2], 4.0).expect("a disc");
-    let domain = Domain::new([-8.0; 2], [8.0; 2]);
-    let confinement = Confinement::inside(&body, &domain, KernelKind::WendlandC2, 1.3, 1.0);
-    let reckoned = sphpack_geometry::Surface::<2>::measure(&body) * patches_over_spacing(2);
-    let ratio = confinement.patches() as f64 / reckoned;
-    assert!((0.7..1.4).contains(&ratio), "{ratio}");
+    for radius in [0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 4.0] {
+        let ratio = patches_over_expected(&Ball::new([0.0; 3], radius).expect("a ball"), 9.0);
+        assert!((0.75..1.33).contains(&ratio), "ball of {radius}: {ratio}");
+        let ratio = patches_over_expected(&Ball::new([0.0; 2], radius).expect("a disc"), 9.0);
+        assert!((0.7..1.4).contains(&ratio), "disc of {radius}: {ratio}");
+    }
+    for minor in [0.3, 0.6, 0.9, 1.3, 1.9] {
+        let torus = Torus::new([0.0; 3], [0.0, 0.3, 1.0], 2.0, minor).expect("a torus");
+        let ratio = patches_over_expected(&torus, 9.0);
+        assert!((0.75..1.33).contains(&ratio), "torus of {minor}: {ratio}");
+    }
+    for axis in [0.4, 1.0, 2.5] {
+        let ellipsoid = Ellipsoid::new([0.0; 3], [axis, 3.0, 1.2]).expect("an ellipsoid");
+        let ratio = patches_over_expected(&ellipsoid, 9.0);
+        assert!(
+            (0.75..1.33).contains(&ratio),
+            "ellipsoid of {axis}: {ratio}"
+        );
+    }
 }
 
 #[test]

@@ -100,6 +100,17 @@ fn with_energy<const D: usize, R>(
     work(&mut energy)
 }
 
+/// Which way is into the box from a place on one of its sides, 0 elsewhere.
+fn on_side(x: f64) -> f64 {
+    if x < 1e-4 {
+        1.0
+    } else if x > 1.0 - 1e-4 {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
 fn force_is_downhill<const D: usize>(shake: f64, state: u64) -> Result<(), TestCaseError> {
     with_energy::<D, _>(shake, state, |energy| {
         let mut place = Vec::new();
@@ -109,6 +120,10 @@ fn force_is_downhill<const D: usize>(shake: f64, state: u64) -> Result<(), TestC
         let mut random = Congruential::new(state ^ 0x5555);
         for d in &mut direction {
             *d = std::array::from_fn(|_| either_way(&mut random));
+        }
+        // Who lies on a side of the box goes along it: across, it goes one way only.
+        for (d, p) in direction.iter_mut().zip(&place) {
+            *d = std::array::from_fn(|k| if on_side(p[k]) == 0.0 { d[k] } else { 0.0 });
         }
         energy.make_tangential(&mut direction);
         let slope = vectors::dot(&direction, &force);
@@ -167,6 +182,40 @@ proptest! {
         never_uphill::<2>(shake, state)?;
         never_uphill::<3>(shake, state)?;
     }
+}
+
+/// Drawn once: one particle lies on a side of the box and is pushed off it. Steps across that side end on it, so that a difference of
+/// both ways saw half the slope there; the way into the box has it all.
+#[test]
+fn forces_on_a_side_are_the_negative_gradient_into_the_box() {
+    let (shake, state) = (0.2993876147936719, 7_649_147_146_414_495_450);
+    force_is_downhill::<2>(shake, state).expect("along the sides");
+    with_energy::<2, _>(shake, state, |energy| {
+        let mut place = Vec::new();
+        energy.places(&mut place);
+        let (start, force) = (energy.value(), energy.force().to_vec());
+        let into = |i: usize, k: usize| {
+            let inward = on_side(place[i][k]);
+            if inward * force[i][k] > 0.0 {
+                inward
+            } else {
+                0.0
+            }
+        };
+        let direction: Vec<[f64; 2]> = (0..place.len())
+            .map(|i| std::array::from_fn(|k| into(i, k)))
+            .collect();
+        let slope = vectors::dot(&direction, &force);
+        assert!(slope > 0.5, "nobody is pushed off a side: {slope}");
+        let step = 1e-6 * energy.spacing();
+        energy.move_to(&place, step, &direction);
+        let difference = (energy.value() - start) / step;
+        assert!(
+            (difference + slope).abs() < 1e-4 * slope,
+            "−dE/ds = {}, force · direction = {slope}",
+            -difference
+        );
+    });
 }
 
 /// Pairs across a periodic side count once in the energy, as any other pair of moving particles.

@@ -40,9 +40,9 @@ use sphpack_pairs::Repulsion;
 pub struct Coupled {
     /// ε: stop when u_max ∆t/h is below this (Negi & Ramachandran 2021, eq. 23).
     pub velocity_tolerance: f64,
-    /// Give up after this many iterations of the second pass.
+    /// Give up after this many iterations, those of both sides apart included.
     pub max_iterations: usize,
-    /// Iterations of the first pass.
+    /// Iterations of the first pass on either side, at most: neither side has more than a third of all.
     pub apart_iterations: usize,
     /// A particle this near to its domain's surface becomes a boundary particle, in ∆s.
     pub capture_over_spacing: f64,
@@ -56,7 +56,7 @@ impl Default for Coupled {
     fn default() -> Self {
         Self {
             velocity_tolerance: 1e-4,
-            max_iterations: 20_000,
+            max_iterations: 30_000,
             apart_iterations: 5000,
             capture_over_spacing: 0.05,
             cohesion: 0.2,
@@ -81,8 +81,7 @@ impl Coupled {
         lattices: Some([Lattice::Square, Lattice::SimpleCubic]),
         // Twice 5,000 iterations of one side with two sums each, then 2,750 … 20,000 of all with one.
         work: Work {
-            evaluations: 10_000.0,
-            before: 10_000.0,
+            evaluations: 20_000.0,
             lists: 2.0,
             ..Work::PLAIN
         },
@@ -98,8 +97,7 @@ impl Coupled {
         problem: &Problem<D>,
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        let limit = 2 * self.apart_iterations + self.max_iterations;
-        log.begin(&Self::INFO, self.velocity_tolerance, limit);
+        log.begin(&Self::INFO, self.velocity_tolerance, self.max_iterations);
         // ReadInput
         let surfaces = log.surfaces(problem)?;
 
@@ -176,7 +174,8 @@ impl Coupled {
             &mut forces,
             &mut pull,
         ])?;
-        for iteration in first..=self.apart_iterations {
+        let last = self.apart_iterations.min(self.max_iterations / 3);
+        for iteration in first..=last {
             if log.is_to_stop(&[
                 &begin,
                 &iteration,
@@ -209,7 +208,7 @@ impl Coupled {
             }
             on_surface.project_by(particles, |p, body| Some(nearest(p, body)));
             log.seconds.projection += projecting.elapsed().as_secs_f64();
-            if iteration % LOOK_EVERY == 0 {
+            if iteration % LOOK_EVERY == 0 || iteration == last {
                 log.look(
                     begin + iteration,
                     motion.fastest * dt / h,
@@ -222,7 +221,7 @@ impl Coupled {
             place,
             &[
                 &begin,
-                &(self.apart_iterations + 1),
+                &(last + 1),
                 particles,
                 &on_surface,
                 &watch,
@@ -260,7 +259,8 @@ impl Coupled {
             &mut motion,
             &mut forces,
         ])?;
-        for iteration in first..=self.max_iterations {
+        let last = self.max_iterations.saturating_sub(begin);
+        for iteration in first..=last {
             if log.is_to_stop(&[&begin, &iteration, particles, &on_surface, &motion, &forces]) {
                 break;
             }
@@ -270,7 +270,7 @@ impl Coupled {
                 point::scale(forces.gradient(i), -SYMMETRIC)
             });
             on_surface.project(particles, surfaces, problem.support());
-            if iteration % LOOK_EVERY == 0 || iteration == self.max_iterations {
+            if iteration % LOOK_EVERY == 0 || iteration == last {
                 // CheckConvergence (eq. 23)
                 let criterion = motion.fastest * dt / h;
                 if log.look(begin + iteration, criterion, &forces, particles) {
@@ -326,4 +326,33 @@ fn divide<const D: usize>(
         }
     }
     [inner, outer]
+}
+
+#[cfg(test)]
+mod tests {
+    use sphpack_geometry::Ball;
+    use sphpack_neighbors::Domain;
+
+    use super::*;
+    use crate::observer::Silent;
+
+    #[test]
+    fn no_more_iterations_than_asked_for_in_all_passes_together() {
+        let disc = Ball::new([0.0; 2], 0.5).expect("a disc");
+        let problem = Problem::new(Domain::new([-1.0; 2], [1.0; 2]), 0.15).body("disc", disc);
+        for most in [1, 7, 160, 1000] {
+            let coupled = Coupled {
+                velocity_tolerance: 0.0,
+                max_iterations: most,
+                ..Coupled::default()
+            };
+            let packed = coupled.pack_in(&problem, &mut RunLog::new(&mut Silent));
+            let packed = packed.expect("a sound problem");
+            assert_eq!(packed.stop_reason, StopReason::IterationLimit);
+            assert_eq!(packed.iterations, most);
+            // Two sums in every iteration apart, one of those together, and one at the end.
+            let apart = 2 * (most / 3);
+            assert_eq!(packed.force_evaluations, most + apart + 1);
+        }
+    }
 }

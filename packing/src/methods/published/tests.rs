@@ -50,7 +50,7 @@ fn methods<const D: usize>() -> Vec<(&'static str, Pack<D>)> {
             Coupled {
                 velocity_tolerance: 1e-3,
                 apart_iterations: most.min(300),
-                max_iterations: most.min(1000),
+                max_iterations: 2 * most.min(300) + most.min(1000),
                 ..Coupled::default()
             }
             .pack_in(p, &mut RunLog::new(o))

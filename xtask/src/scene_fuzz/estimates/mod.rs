@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use sphpack::{Scene, plan};
-use sphpack_packing::pace;
+use sphpack_packing::pace::Pace;
 
 use super::{build, trial};
 use crate::arguments::Arguments;
@@ -175,9 +175,10 @@ fn row(job: Job, program: &Path, scratch: &Path) -> Result<Row, String> {
     let plan = plan(&scene, None).map_err(|error| error.to_string())?;
     fs::write(scratch.join("scene.toml"), &job.text).map_err(|error| error.to_string())?;
     // Others may be at work on the machine: its pace is that of this minute.
-    let before = pace::slowness();
+    let estimate = plan.estimate;
+    let before = Pace::measured(&estimate);
     let seconds = packed(program, scratch, job.stopped_after)?;
-    let slowness = 0.5 * (before + pace::slowness());
+    let pace = before.mean(Pace::measured(&estimate));
     let text = fs::read_to_string(scratch.join("out.json"))
         .map_err(|error| format!("{} left no report: {error}", job.method))?;
     let report: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
@@ -187,7 +188,6 @@ fn row(job: Job, program: &Path, scratch: &Path) -> Result<Row, String> {
             .and_then(Value::as_f64)
             .unwrap_or(0.0)
     };
-    let estimate = plan.estimate;
     let settling: f64 = ["neighbors", "forces", "projection", "minimiser"]
         .iter()
         .map(|part| number(&format!("/seconds/{part}")))
@@ -200,7 +200,6 @@ fn row(job: Job, program: &Path, scratch: &Path) -> Result<Row, String> {
             _ => 1.0,
         };
     let is_moved = estimate.seconds_per_evaluation > 0.0 && evaluations > 1.0;
-    let each = slowness * estimate.seconds_per_evaluation;
     let is_whole = job.stopped_after.is_none();
     Ok(Row {
         particles: number("/particles/total"),
@@ -209,13 +208,11 @@ fn row(job: Job, program: &Path, scratch: &Path) -> Result<Row, String> {
             took: number("/peak_memory_bytes"),
         },
         evaluation: (is_whole && is_moved && job.method != "coupled").then(|| Pair {
-            said: each,
+            said: estimate.seconds_of_one(pace),
             took: settling / number("/seconds/total") * seconds / evaluations,
         }),
         whole: is_whole.then(|| Pair {
-            said: plan.building_seconds
-                + slowness * estimate.seconds_beside
-                + each * scene.typical_evaluations(),
+            said: plan.building_seconds + estimate.seconds(pace, scene.typical_evaluations()),
             took: seconds,
         }),
         job,

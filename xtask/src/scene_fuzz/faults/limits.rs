@@ -82,16 +82,35 @@ pub(super) fn file_size(desk: &Desk<'_>, random: &mut Random) -> Result<Outcome,
     judged_of(desk, &outputs, &ended, &["ulimit -f"])
 }
 
-/// KiB from what a program needs to be loaded at all to what is enough for anything.
-fn kibibytes(random: &mut Random) -> usize {
-    random.whole(24_000, 500_000)
+/// Of a thread, with what guards it.
+const STACK_KIBIBYTES: usize = 2056;
+
+/// KiB from what the command needs to speak at all to what is enough for anything, half the times hardly more than some stacks of
+/// threads take. Below that the system does not load it, or its runtime does not begin.
+fn kibibytes(desk: &Desk<'_>, random: &mut Random) -> Result<usize, String> {
+    let (mut low, mut high) = (4_000, 500_000);
+    while high - low > 20 {
+        let middle = usize::midpoint(low, high);
+        let run = Run::new(&["--version"]).limited(format!("ulimit -v {middle}"));
+        if matches!(desk.run(run)?.code, Some(0 | 1)) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    let more = if random.chance(0.5) {
+        STACK_KIBIBYTES * random.whole(0, 7) + random.whole(10, 200)
+    } else {
+        random.whole(10, 500_000)
+    };
+    Ok(high + more)
 }
 
 const MEMORY: [&str; 2] = ["memory", "ulimit"];
 
 pub(super) fn address_space(desk: &Desk<'_>, random: &mut Random) -> Result<Outcome, String> {
     let outputs = desk.outputs("", random)?;
-    let limit = format!("ulimit -v {}", kibibytes(random));
+    let limit = format!("ulimit -v {}", kibibytes(desk, random)?);
     let mut run = Run::pack(&outputs).limited(limit);
     let threads = random.whole(1, 4).to_string();
     run.arguments
@@ -113,7 +132,7 @@ pub(super) fn address_space_of_others(
     if packed.code != Some(0) {
         return Err(format!("without any fault: {}", packed.errors));
     }
-    let limit = format!("ulimit -v {}", kibibytes(random));
+    let limit = format!("ulimit -v {}", kibibytes(desk, random)?);
     let words: [&[&str]; 3] = [
         &["quality", "p.csv", "--spacing", "0.1"],
         &["list", "methods"],

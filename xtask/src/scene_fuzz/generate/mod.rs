@@ -131,6 +131,7 @@ pub(super) fn case(seed: u64, number: u64) -> Case {
             *x = digits.of(random.between(-far, far)) * case.spacing;
         }
     }
+    settings::finish(random, &mut case, room.size.iter().product());
     // Now and then with a solid body, which is refused.
     if case.method() == "ppa" && random.chance(0.9) {
         case = case.emptied();
@@ -191,6 +192,14 @@ mod tests {
         }
         let periodic = share(&|case| case.periodic.contains(&true));
         assert!((0.1..0.3).contains(&periodic), "{periodic}");
+        for (finish, least) in [("both", 0.035), ("calm", 0.01)] {
+            let line = format!("finish = {finish:?}");
+            let own = share(&|case| case.packing.contains(&line));
+            assert!((least..2.0 * least).contains(&own), "{finish}: {own}");
+            let default =
+                share(&|case| case.packing.contains(&line) && case.method() != "balanced");
+            assert_eq!(default, 0.0);
+        }
         let files = share(&|case| case.bodies.iter().any(|body| body.shape.file().is_some()));
         assert!((0.1..0.4).contains(&files), "{files}");
     }

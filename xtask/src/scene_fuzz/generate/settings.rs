@@ -88,3 +88,30 @@ pub(super) fn settle(random: &mut Random, case: &mut Case) {
         _ => Some(kinds.to_vec()),
     };
 }
+
+/// Sites of a box in which particles are brought to rest, at most, in the plane and in space: it takes seconds for some
+/// thousand, and too many are refused.
+const MOST_AT_REST: [f64; 2] = [1500.0, 700.0];
+
+/// The dearer finishes of the default method, of a scene whose box has so many sites. Drawn last, so that all else of a scene is
+/// the same with and without.
+pub(super) fn finish(random: &mut Random, case: &mut Case, sites: f64) {
+    let is_taken = case.packing.iter().any(|key| key.starts_with("finish"));
+    if case.method() != "balanced" || is_taken {
+        return;
+    }
+    let is_small = sites <= MOST_AT_REST[case.dimension - 2];
+    let balance = random.pick(&[None, Some(0.0), Some(0.2), Some(0.8), Some(1.0)]);
+    match random.below(25) {
+        0 | 1 => {
+            case.packing.push("finish = \"both\"".to_owned());
+            let line = |balance: f64| format!("balance = {balance:?}");
+            case.packing.extend(balance.map(line));
+        }
+        // Now and then one that is refused.
+        2 if is_small || random.chance(0.05) => {
+            case.packing.push("finish = \"calm\"".to_owned());
+        }
+        _ => {}
+    }
+}
