@@ -69,7 +69,7 @@ impl<const D: usize> Octaves<D> {
         let octave = |slot: &u32| (reaches[*slot as usize] / least).log2().ceil() as u32;
         let mut order: Vec<u32> = (0..sources.len() as u32).collect();
         // Stable: the order of slots stays within an octave.
-        order.sort_by_key(octave);
+        order.sort_by_cached_key(octave);
         for members in order.chunk_by(|a, b| octave(a) == octave(b)) {
             let places: Vec<[f64; D]> = (members.iter()).map(|&s| sources[s as usize]).collect();
             let greatest = members.iter().map(|&slot| reaches[slot as usize]);

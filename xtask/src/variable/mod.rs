@@ -3,6 +3,7 @@
 mod judged;
 mod others;
 mod rows;
+mod time;
 
 use std::fmt::Write as _;
 use std::fs;
@@ -60,7 +61,7 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
         }
     }
     if selection.write {
-        write(&table, &others::table()?, &curve)?;
+        write(&table, &others::table()?, &time::table()?, &curve)?;
     }
     if missed.is_empty() {
         Ok(())
@@ -153,7 +154,7 @@ fn line(row: &Row, outcome: &Outcome, judged: &Judged, misses: &[String]) -> Str
     )
 }
 
-fn write(table: &str, others: &str, curve: &[(f64, Outcome)]) -> Result<(), String> {
+fn write(table: &str, others: &str, time: &str, curve: &[(f64, Outcome)]) -> Result<(), String> {
     let docs = root().join("docs");
     let save = |name: &str, text: &str| {
         let path = docs.join(name);
@@ -221,6 +222,11 @@ fn write(table: &str, others: &str, curve: &[(f64, Outcome)]) -> Result<(), Stri
          Squares halved where the field asks for it, and shifted by −h² ∇Γ/4 a step while sizes follow the field; neither knows of the\n\
          circle's surface.\n\n\
          {others}\n\
+         ## Time\n\n\
+         Of settling, lists of neighbours and the minimiser included, over particles and evaluations; all particles move. Graded ones take two\n\
+         whole sums an evaluation where others take one and a lighter one, their lists hold a pair where either sees the other,\n\
+         and are made anew more often, as steps are as long for coarse particles as they are.\n\n\
+         {time}\n\
          ## How\n\n\
          1. The spacing s(x) is on each body's surface what the scene says, and grows from there with the distance d as\n\
             s + (growth − 1) (√(d² + 9 s²) − 3 s), up to the coarsest.\n\

@@ -30,7 +30,7 @@ pub(super) enum Aim {
     /// Sizes stay with the particles. By either h, or by (h_i + h_j)/2 where spacings grow by more than 10 %, particles of different
     /// sizes mix.
     Order,
-    /// ½ κ Σ (Γ_i − Γ₀)² with the lattice's Γ₀ and the repulsion, the same for all sizes: levels the density. Every size is that of the field
+    /// ½ κ Σ (Γ_i − Γ₀)² towards the [`target`] Γ₀ and the repulsion, the same for all sizes: levels the density. Every size is that of the field
     /// where the particle is, every region keeps its volume.
     Level {
         /// κ.
@@ -48,7 +48,7 @@ pub(super) struct GradedEnergy<'a, const D: usize> {
     pub(super) h_over_spacing: f64,
     /// The finest spacing, scene units.
     finest: f64,
-    /// Γ₀ of the lattice, which by a short kernel is not 1: no filling by particles of these sizes comes nearer to 1.
+    /// [`target`].
     target: f64,
     /// The region of every particle, and the volume of the free particles of each.
     regions: Regions,
@@ -88,6 +88,19 @@ pub(super) struct Regions {
 /// Skin of the neighbour list, in parts of every support.
 const SKIN: f64 = 0.1;
 
+/// A lattice's Γ₀ this near to 1 is 1: particles of many sizes are on none.
+const BIAS: f64 = 5e-4;
+
+/// What Γ is levelled towards: 1, or what a kernel too short for that makes of an even filling.
+pub(super) fn target<const D: usize>(problem: &Problem<D>) -> f64 {
+    let lattice = (problem.chosen_lattice()).gamma(problem.kernel, problem.h_over_spacing);
+    if (lattice - 1.0).abs() < BIAS {
+        1.0
+    } else {
+        lattice
+    }
+}
+
 /// The largest pressure that levelling makes: where density cannot be level, more would only tear particles apart.
 const MOST_PRESSURE: f64 = 1.0;
 
@@ -107,7 +120,7 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
             kernel: problem.kernel,
             h_over_spacing: problem.h_over_spacing,
             finest,
-            target: (problem.chosen_lattice()).gamma(problem.kernel, problem.h_over_spacing),
+            target: target(problem),
             regions,
             mirror: Mirror::new(problem.domain, problem.resolution.clone(), sight),
             list: CellList::new(&problem.domain, support).with_skin(SKIN),

@@ -6,7 +6,7 @@ use sphpack_neighbors::{Bounds, Domain, point};
 
 use super::bisection::{Piece, places};
 use super::cells::{Cells, Layers};
-use super::energy::{Aim, GradedEnergy, NONE, Regions};
+use super::energy::{Aim, GradedEnergy, NONE, Regions, target};
 use crate::methods::Balanced;
 use crate::minimise::{Movable, Potential};
 use crate::particles::{Kind, Particles};
@@ -133,7 +133,7 @@ fn images_are_mirrored_at_open_sides() {
             .sum();
         regions.volume[own as usize] * followed(i).powi(2) / all
     };
-    let target = (problem.chosen_lattice()).gamma(problem.kernel, problem.h_over_spacing);
+    let target = target(&problem);
     let mut worst: f64 = 0.0;
     for i in 0..copy.len() {
         let h = problem.h_over_spacing * followed(i);
