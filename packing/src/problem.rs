@@ -418,7 +418,8 @@ impl<const D: usize> Problem<D> {
                 dimension: D,
             });
         }
-        let reach = self.frozen_depth() * (self.resolution.range()[1] / self.spacing());
+        let coarsest = self.resolution.greatest_in(&self.domain.bounds);
+        let reach = self.frozen_depth() * (coarsest / self.spacing());
         for axis in 0..D {
             if self.domain.periodic[axis] && size[axis] < 2.0 * reach {
                 return Err(PackingError::PeriodTooShort {
@@ -430,7 +431,6 @@ impl<const D: usize> Problem<D> {
         }
         if self.resolution.uniform().is_none() {
             // Beyond open sides are mirror images, once.
-            let [_, coarsest] = self.resolution.range();
             let axis = (0..D).find(|&k| !self.domain.periodic[k] && size[k] < reach);
             if let Some(axis) = axis {
                 return Err(PackingError::NarrowDomain {

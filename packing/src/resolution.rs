@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use sphpack_geometry::Surface;
-use sphpack_neighbors::{Bounds, Domain};
+use sphpack_neighbors::{Bounds, Domain, Odometer};
 
 /// What a field of spacings says of a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,6 +41,9 @@ pub trait SpacingField<const D: usize>: fmt::Debug + Send + Sync {
 /// than this.
 const AT_SURFACE: f64 = 8.0;
 const MOST_HALVINGS: usize = 24;
+
+/// Places along an axis at which the greatest spacing is looked for.
+const LOOKED_AT: i64 = 9;
 
 /// Cells that are counted, in spacings: s^−D is right to some thousandths there where spacings grow by less than 10 %.
 const COUNTED: f64 = 2.0;
@@ -125,6 +128,22 @@ impl<const D: usize> Resolution<D> {
     /// The least and the greatest spacing, scene units.
     pub fn range(&self) -> [f64; 2] {
         self.0.range()
+    }
+
+    /// The greatest spacing in a box, about: of a grid of places.
+    pub fn greatest_in(&self, bounds: &Bounds<D>) -> f64 {
+        if let Some(all) = self.uniform() {
+            return all;
+        }
+        let size = bounds.size();
+        let places = Odometer::new([0; D], [LOOKED_AT; D]);
+        places.fold(0.0, |most: f64, step| {
+            let place: [f64; D] = std::array::from_fn(|k| {
+                let part = step[k] as f64 / (LOOKED_AT - 1) as f64;
+                bounds.min[k] + part * size[k]
+            });
+            most.max(self.at(place).value)
+        })
     }
 
     /// How many particles a box asks for: ∫ s^−D dV, by cells as small as the spacings in them. With it how many of those are

@@ -4,7 +4,6 @@ use rayon::prelude::*;
 use sphpack_neighbors::{Bounds, place_of, point};
 
 use super::bisection::Piece;
-use super::pockets;
 use crate::depths::{Seen, around};
 use crate::problem::Problem;
 
@@ -214,11 +213,6 @@ impl<const D: usize> Cells<D> {
             .filter(|share| share.region as usize == part)
             .map(|share| share.part * self.leaves[share.leaf as usize].bounds.volume())
             .sum()
-    }
-
-    /// The pocket of fluid that every leaf is in, and how many there are.
-    pub(super) fn pockets(&self, problem: &Problem<D>) -> (Vec<u32>, usize) {
-        pockets::of(self, problem)
     }
 }
 

@@ -11,6 +11,7 @@ use sphpack_pairs::{
     Averaged, AveragedSum, Gathered, PackingSums, Repulsion, Shape, SizedRepulsion, SizedSum,
 };
 
+use super::anchor::{Anchor, STRAIGHT};
 use super::columns::{Columns, reach_over_h};
 use super::mirror::Mirror;
 use crate::forces::{blocked_sum, largest};
@@ -62,6 +63,8 @@ pub(super) struct GradedEnergy<'a, const D: usize> {
     repulsion: Repulsion,
     /// Of particles and of their images behind.
     set: Columns<D>,
+    /// What the field said of every particle, and where, when it was last asked.
+    pub(super) anchors: Vec<Anchor<D>>,
     /// ∇s where sizes follow.
     size_gradient: Vec<[f64; D]>,
     /// Of every target slot: by the energy's own h, and, of pressures, by the sources'.
@@ -130,6 +133,7 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
             aim: Aim::Order,
             repulsion: Repulsion::none(),
             set: Columns::default(),
+            anchors: Vec::new(),
             size_gradient: vec![[0.0; D]; movable.particles.len()],
             sums: Vec::new(),
             scattered: Vec::new(),
@@ -221,25 +225,24 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
     }
 
     /// Adds what is beyond open sides to the particles, frozen, as far as a kernel sees whose support is so many spacings.
-    pub(super) fn freeze(self, sight: f64) {
+    pub(super) fn freeze(mut self, sight: f64) {
+        self.follow(0.0);
         let Self {
             movable, mirror, ..
         } = self;
         mirror.freeze(movable.particles, sight);
     }
 
-    /// Sizes and volumes where the particles are.
-    fn follow(&mut self) {
+    /// Sizes and volumes where the particles are, the field taken as straight within so many spacings of where it was asked.
+    fn follow(&mut self, within: f64) {
         let particles = &mut *self.movable.particles;
         let (resolution, position) = (&self.resolution, &particles.position);
-        let followed: Vec<Option<(f64, [f64; D])>> = (0..particles.len())
-            .into_par_iter()
+        let regions = &self.regions.of;
+        self.anchors.resize(particles.len(), Anchor::NONE);
+        let followed: Vec<Option<(f64, [f64; D])>> = (self.anchors.par_iter_mut().enumerate())
             .with_min_len(64)
-            .map(|i| {
-                (self.regions.of[i] != NONE).then(|| {
-                    let spacing = resolution.at(position[i]);
-                    (spacing.value, spacing.gradient)
-                })
+            .map(|(i, anchor)| {
+                (regions[i] != NONE).then(|| anchor.at(resolution, position[i], within))
             })
             .collect();
         let mut spacing: Vec<f64> = (0..particles.len())
@@ -271,7 +274,7 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
         self.evaluations += 1;
         let start = Instant::now();
         if matches!(self.aim, Aim::Level { .. }) {
-            self.follow();
+            self.follow(STRAIGHT);
         }
         let followed = start.elapsed().as_secs_f64();
         if self.mirror.follow(self.movable.particles) {

@@ -16,6 +16,7 @@ impl<const D: usize> State for GradedEnergy<'_, D> {
             .collect();
         spacing.save(out)?;
         self.movable.particles.volume.save(out)?;
+        self.anchors.save(out)?;
         self.mirror.save(out)?;
         self.list.reference().to_vec().save(out)?;
         self.built_with.save(out)?;
@@ -34,6 +35,10 @@ impl<const D: usize> State for GradedEnergy<'_, D> {
             return Err(Damaged);
         }
         self.movable.particles.sizes = Sizes::each(&spacing, self.h_over_spacing);
+        self.anchors = Vec::take(from)?;
+        if !(self.anchors.is_empty() || self.anchors.len() == count) {
+            return Err(Damaged);
+        }
         self.mirror.load(from)?;
         let reference = Vec::take(from)?;
         self.built_with = Vec::take(from)?;

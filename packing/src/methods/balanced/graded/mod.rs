@@ -8,6 +8,7 @@
 //!
 //! Γ is by each particle's own h. Beyond open sides are mirror images ([`mirror`]).
 
+mod anchor;
 mod bisection;
 mod cells;
 mod columns;
@@ -199,7 +200,7 @@ fn place<const D: usize>(
         coarsest: problem.resolution.range()[1],
     };
     let cells = Cells::of(problem, &layers);
-    let (mut pocket, found) = cells.pockets(problem);
+    let (mut pocket, found) = pockets::of(&cells, problem);
     // Pockets without a particle of their own leave their volume to the first.
     let contents = cells.contents(&pocket, found);
     let mut number = vec![0_u32; found];

@@ -1,3 +1,5 @@
+//! Particles of many sizes: energies against differences and all pairs, places, cells, packings.
+
 use std::f64::consts::PI;
 
 use sphpack_geometry::{Ball, Outline, Surface};
@@ -7,6 +9,7 @@ use sphpack_neighbors::{Bounds, Domain, point};
 use super::bisection::{Piece, places};
 use super::cells::{Cells, Layers};
 use super::energy::{Aim, GradedEnergy, NONE, Regions, target};
+use super::pockets;
 use crate::methods::Balanced;
 use crate::minimise::{Movable, Potential};
 use crate::particles::{Kind, Particles};
@@ -227,7 +230,7 @@ fn cells_know_regions_and_pockets() {
         coarsest: 0.3,
     };
     let cells = Cells::of(&problem, &layers);
-    let (pocket, count) = cells.pockets(&problem);
+    let (pocket, count) = pockets::of(&cells, &problem);
     assert_eq!(count, 2);
     let contents = cells.contents(&pocket, count);
     assert!(
