@@ -16,6 +16,9 @@ const ASKED: usize = 512;
 /// Spacings along a surface that differ by no more than this part are one.
 const UNIFORM: f64 = 0.01;
 
+/// Differences of rounding.
+const SAME: f64 = 1e-9;
+
 /// What the field says along a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Along {
@@ -45,7 +48,8 @@ impl Along {
         let mean = (sum / spacings.len() as f64).powf(-1.0 / f64::from(power));
         let off = (spacings.iter()).fold(0.0, |most: f64, s| most.max((s / mean - 1.0).abs()));
         Self {
-            mean,
+            // One spacing is not the mean of its powers.
+            mean: if off < SAME { spacings[0] } else { mean },
             is_uniform: off <= UNIFORM,
         }
     }
