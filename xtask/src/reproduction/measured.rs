@@ -170,7 +170,8 @@ fn interpolated(outcome: &Outcome, h_over_spacing: f64) -> Vec<(Measure, f64)> {
     ]
 }
 
-fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
+/// Draws a packing into a file.
+pub(crate) fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
     let bounds = match &outcome.packing {
         Packing::Plane(solution) => {
             let bounds = solution.packed.domain.bounds;
