@@ -46,33 +46,16 @@ pub struct CloudSizes {
 }
 
 impl CloudSizes {
-    /// From columns: where neither spacings nor smoothing lengths differ, none.
-    fn of(
-        columns: &Columns,
-        volume: &[f64],
-        dimension: usize,
-        path: &Path,
-    ) -> Result<Option<Self>, Error> {
+    /// From columns: where neither spacings nor smoothing lengths differ, none. Lengths of no sense are passed over.
+    fn of(columns: &Columns, volume: &[f64], dimension: usize) -> Option<Self> {
         let differing = |name: &str| {
             let column = columns.numbers.get(name)?;
-            // Zeros throughout are no lengths.
-            let is_given = column.iter().any(|&length| length != 0.0);
-            (is_given && common(column).is_none()).then_some(column)
+            let is_length = |length: &f64| *length > 0.0 && length.is_finite();
+            (column.iter().all(is_length) && common(column).is_none()).then_some(column)
         };
         let (spacing, h) = (differing("spacing"), differing("h"));
         if spacing.is_none() && h.is_none() {
-            return Ok(None);
-        }
-        for (name, column) in [("spacing", spacing), ("h", h)] {
-            let bad = |length: &f64| !(*length > 0.0 && length.is_finite());
-            if let Some(at) = column.and_then(|column| column.iter().position(bad)) {
-                return Err(Error::input(
-                    path,
-                    format!(
-                        "particle {at} has a \"{name}\" that is no positive, finite number; correct it, or leave the column out"
-                    ),
-                ));
-            }
+            return None;
         }
         let spacing = spacing.cloned().unwrap_or_else(|| {
             let root = 1.0 / dimension as f64;
@@ -87,10 +70,10 @@ impl CloudSizes {
             (Some(h), None) => h.iter().map(|h| h / H_OVER_SPACING).collect(),
             _ => spacing,
         };
-        Ok(Some(Self {
+        Some(Self {
             spacing,
             h_over_spacing: h.map(|_| h_over_spacing.unwrap_or(H_OVER_SPACING)),
-        }))
+        })
     }
 }
 
@@ -181,7 +164,7 @@ impl Cloud {
             ),
             _ => None,
         };
-        let sizes = CloudSizes::of(&columns, &volume, dimension, path)?;
+        let sizes = CloudSizes::of(&columns, &volume, dimension);
         Ok(Self {
             sizes,
             path: path.to_owned(),
