@@ -272,7 +272,7 @@ fn a_field_is_followed_or_refused() {
         .sum();
     assert!((all - 1.0).abs() < 1e-12);
     assert!(packed.quality().density.linf < 5e-3, "{}", packed.quality());
-    let small = Problem::new(Domain::new([0.0; 2], [0.6, 1.0]), Coarser);
+    let small = Problem::new(Domain::new([0.0; 2], [0.5, 1.0]), Coarser);
     assert!(matches!(
         small.pack(&crate::Balanced::default()),
         Err(PackingError::NarrowDomain { axis: 0, .. })
