@@ -34,6 +34,10 @@ pub(super) fn run<const D: usize>(
     log: &mut RunLog<'_>,
 ) -> Result<StopReason, PackingError> {
     let pace = settling.minimiser.pace();
+    // What is told of the way: it ends by evaluations.
+    log.progress.tolerance = LEVEL;
+    log.progress.max_evaluations =
+        (settling.max_evaluations).min(pace * (ORDERING + LEVELLING[0] + LEVELLING[1]));
     let mut course = Course {
         energy,
         minimiser: settling.minimiser.build::<D>(),
