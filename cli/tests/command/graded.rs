@@ -41,7 +41,7 @@ fn rows(text: &str) -> Vec<std::collections::HashMap<String, String>> {
 #[test]
 fn particles_grow_away_from_bodies() {
     let desk = Desk::new().with("scene.toml", SCENE);
-    let ending = desk.run(&[
+    desk.succeed(&[
         "pack",
         "scene.toml",
         "-o",
@@ -53,7 +53,6 @@ fn particles_grow_away_from_bodies() {
         "--picture",
         "out.png",
     ]);
-    assert_eq!(ending.status, Some(0), "{ending:?}");
     let text = String::from_utf8(desk.read("out.csv")).expect("text");
     let rows = rows(&text);
     let number = |row: &std::collections::HashMap<String, String>, name: &str| -> f64 {
@@ -101,10 +100,9 @@ fn particles_grow_away_from_bodies() {
     assert!(resolution["ratio"].as_f64().expect("a number") > 5.0);
     assert!(report["density"]["linf"].as_f64().expect("a number") < 2.5e-3);
     // Written Γ is what anybody's measure finds, each particle by its own h.
-    let ending = desk.run(&["pack", "scene.toml", "-o", "all.npz", "--force", "-q"]);
-    assert_eq!(ending.status, Some(0), "{ending:?}");
+    desk.succeed(&["pack", "scene.toml", "-o", "all.npz", "--force", "-q"]);
     for file in ["out.csv", "out.vtu", "all.npz"] {
-        let ending = desk.run(&["quality", file, "--spacing", "0.025", "--json"]);
+        let ending = desk.succeed(&["quality", file, "--spacing", "0.025", "--json"]);
         let measured: Value = serde_json::from_str(&ending.stdout).expect("JSON");
         assert_eq!(measured["h_over_spacing"].as_f64(), Some(1.2), "{file}");
         // Without frozen rows what is near the edge is left out, the rest has its Γ.
@@ -118,7 +116,7 @@ fn frozen_images_support_what_is_at_open_sides() {
     let scene =
         format!("{SCENE}\n[output]\ninclude = [\"free\", \"boundary\", \"fixed\", \"frozen\"]\n");
     let desk = Desk::new().with("scene.toml", scene);
-    let ending = desk.run(&[
+    desk.succeed(&[
         "pack",
         "scene.toml",
         "-o",
@@ -126,10 +124,8 @@ fn frozen_images_support_what_is_at_open_sides() {
         "--report",
         "out.json",
     ]);
-    assert_eq!(ending.status, Some(0), "{ending:?}");
     let report: Value = serde_json::from_slice(&desk.read("out.json")).expect("JSON");
-    let ending = desk.run(&["quality", "out.csv", "--spacing", "0.025", "--json"]);
-    assert_eq!(ending.status, Some(0), "{ending:?}");
+    let ending = desk.succeed(&["quality", "out.csv", "--spacing", "0.025", "--json"]);
     let measured: Value = serde_json::from_str(&ending.stdout).expect("JSON");
     let linf = |of: &Value| of["density"]["linf"].as_f64().expect("a number");
     assert!(
@@ -145,8 +141,7 @@ fn frozen_images_support_what_is_at_open_sides() {
 #[test]
 fn the_dry_run_tells_how_many() {
     let desk = Desk::new().with("scene.toml", SCENE);
-    let ending = desk.run(&["pack", "scene.toml", "--dry-run"]);
-    assert_eq!(ending.status, Some(0), "{ending:?}");
+    let ending = desk.succeed(&["pack", "scene.toml", "--dry-run"]);
     assert!(
         ending.stdout.contains("times fewer than at the finest"),
         "{}",
@@ -164,8 +159,7 @@ fn the_dry_run_tells_how_many() {
         .replace(',', "")
         .parse()
         .expect("a number");
-    let ending = desk.run(&["pack", "scene.toml", "-o", "out.csv", "-q"]);
-    assert_eq!(ending.status, Some(0), "{ending:?}");
+    desk.succeed(&["pack", "scene.toml", "-o", "out.csv", "-q"]);
     let text = String::from_utf8(desk.read("out.csv")).expect("text");
     let packed = rows(&text).len() as f64;
     assert!((said / packed - 1.0).abs() < 0.05, "{said} {packed}");

@@ -157,19 +157,19 @@ fn line(row: &Row, outcome: &Outcome, judged: &Judged, misses: &[String]) -> Str
 }
 
 /// Two discs, one four times finer than the other, few enough particles to be told apart.
-const TWO: &str = "spacing = 0.08
+const TWO: &str = "spacing = 0.12
 [refinement]
-coarsest = 0.2
+coarsest = 0.24
 growth = 1.1
 [domain]
-min = [-1.5, -1.0]
-max = [1.5, 1.0]
+min = [-1.5, -0.8]
+max = [1.5, 0.8]
 [[body]]
 name = \"coarse\"
 shape = { circle = { center = [-0.6, 0.0], radius = 0.6 } }
 [[body]]
 name = \"fine\"
-spacing = 0.02
+spacing = 0.03
 shape = { circle = { center = [0.4, 0.0], radius = 0.3 } }
 ";
 
@@ -262,7 +262,7 @@ fn write(table: &str, others: &str, time: &str, curve: &[(f64, Outcome)]) -> Res
          2. Surfaces get their particles first. Every part's core and every pocket of fluid gets as many as ∫ s^−D dV asks for, at the\n\
             centres of mass of an equal-mass partition.\n\
          3. Order, 40 evaluations: ½ Σ V_i V_j W(r_ij, h̄) with h̄² = (h_i² + h_j²)/2 and the usual repulsion, sizes frozen.\n\
-            With (h_i + h_j)/2 particles of different size mix where growth is 1.15 or more.\n\
+            With (h_i + h_j)/2 particles of different size mix where spacings grow fast.\n\
          4. Level, 69 evaluations, 19 more where L∞ is above 0.1 % or the rms above 0.015 %: 15 Σ (Γ_i − 1)² (by short kernels from the lattice's Γ) and a weak repulsion, with V_i = c s(x_i)^D, c such that every region keeps its\n\
             volume, and h_i = η s(x_i) following every move, all of it in the gradient.\n\n\
          Open sides of the box are mirrors: the frozen particles beyond them are images of those within. `finish`, `masses`, `band`\n\

@@ -11,7 +11,8 @@ pub(super) struct Piece<const D: usize> {
 }
 
 impl<const D: usize> Piece<D> {
-    fn mass(&self) -> f64 {
+    /// Particles.
+    pub(super) fn mass(&self) -> f64 {
         self.density * self.bounds.volume()
     }
 }

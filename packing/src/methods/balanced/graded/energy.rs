@@ -28,7 +28,7 @@ pub(super) const NONE: u32 = u32::MAX;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Aim {
     /// ½ Σ V_i V_j W(r_ij, h̄) with h̄² = (h_i² + h_j²)/2, and the repulsion in proportion to volumes: spreads particles in order.
-    /// Sizes stay with the particles. By either h, or by (h_i + h_j)/2 where spacings grow by more than 10 %, particles of different
+    /// Sizes stay with the particles. By either h, or by (h_i + h_j)/2 where spacings grow fast, particles of different
     /// sizes mix.
     Order,
     /// ½ κ Σ (Γ_i − Γ₀)² towards the [`target`] Γ₀ and the repulsion, the same for all sizes: levels the density. Every size is that of the field

@@ -37,6 +37,7 @@ use crate::particles::{Kind, Particles};
 use crate::problem::{Body, PackingError, Problem};
 use crate::run_log::RunLog;
 use crate::sizes::Sizes;
+use bisection::Piece;
 use cells::{Cells, Layers};
 use energy::{GradedEnergy, NONE, Regions};
 use surfaces::{Along, FollowingInset};
@@ -217,17 +218,8 @@ fn place<const D: usize>(
     let pockets = kept as usize;
     let parts_count = problem.bodies.len();
     let pieces = cells.pieces(&pocket, parts_count + pockets);
-    let asked: Vec<[f64; 2]> = pieces
-        .iter()
-        .map(|pieces| {
-            let mut sums = [0.0; 2];
-            for piece in pieces {
-                let volume = piece.bounds.volume();
-                sums[0] += volume;
-                sums[1] += piece.density * volume;
-            }
-            sums
-        })
+    let asked: Vec<f64> = (pieces.iter())
+        .map(|pieces| pieces.iter().map(Piece::mass).sum())
         .collect();
     let least: Vec<f64> = spacings.iter().map(|s| LEAST * s.powi(D as i32)).collect();
     let (mut room, omitted) = rooms(parts, (samples, excess), &least);
@@ -239,7 +231,7 @@ fn place<const D: usize>(
     // By cells, a region's core has so much volume and asks for so many particles; what the shares leave it is nearly that.
     let volume_per_site: Vec<f64> = (0..room.len())
         .map(|region| {
-            let [_, count] = asked[region];
+            let count = asked[region];
             let volume: f64 = match region.checked_sub(parts_count) {
                 Some(pocket) => measured[pocket][0],
                 None => cells.volume_of(region),
