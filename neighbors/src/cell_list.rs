@@ -3,6 +3,7 @@
 use fearless_simd::Level;
 use rayon::prelude::*;
 
+use crate::arranged::Arranged;
 use crate::block::{BLOCKS_PER_CHUNK, Blocks, SHELLS};
 use crate::cells::Cells;
 use crate::clusters::cluster;
@@ -59,6 +60,7 @@ pub struct CellList<const D: usize> {
     shift: Vec<[f64; D]>,
     slot_of: Vec<u32>,
     blocks: Blocks,
+    arranged: Arranged,
     sorted: Octaves<D>,
     /// The instructions that the search uses.
     level: Level,
@@ -83,6 +85,7 @@ impl<const D: usize> CellList<D> {
             shift: Vec::new(),
             slot_of: Vec::new(),
             blocks: Blocks::default(),
+            arranged: Arranged::default(),
             sorted: Octaves::default(),
             builds: 0,
         }
@@ -92,8 +95,15 @@ impl<const D: usize> CellList<D> {
     /// support where these differ.
     #[must_use]
     pub fn with_skin(mut self, skin: f64) -> Self {
-        self.reaches.set_skin(skin);
+        self.set_skin(skin);
         self
+    }
+
+    /// Another skin than before makes the next update build anew.
+    pub fn set_skin(&mut self, skin: f64) {
+        if self.reaches.set_skin(skin) {
+            self.invalidate();
+        }
     }
 
     /// [`CellList::set_shells`] from the start.
@@ -129,9 +139,24 @@ impl<const D: usize> CellList<D> {
     }
 
     /// The positions at the last build: a list built from these again, with the same shells and targets, has the same
-    /// slots. Empty where the next update builds anew.
+    /// slots; where supports differ, one that was [arranged](CellList::arrange) the same way before. Empty where the next update
+    /// builds anew.
     pub fn reference(&self) -> &[[f64; D]] {
         &self.reference
+    }
+
+    /// How the targets are arranged.
+    pub fn arranged(&self) -> &Arranged {
+        &self.arranged
+    }
+
+    /// Takes over an arrangement of the targets of the next build, of which the supports differ.
+    ///
+    /// # Panics
+    /// In the next update, where a target is missing or twice in it.
+    pub fn arrange(&mut self, arranged: Arranged) {
+        self.invalidate();
+        self.arranged = arranged;
     }
 
     /// Number of targets.
@@ -210,6 +235,7 @@ impl<const D: usize> CellList<D> {
     pub fn invalidate(&mut self) {
         self.reference.clear();
         self.builds = 0;
+        self.arranged = Arranged::default();
     }
 
     fn build(&mut self, positions: &[[f64; D]], is_target: impl Fn(usize) -> bool + Sync) {
@@ -230,13 +256,18 @@ impl<const D: usize> CellList<D> {
             &wrapped
         };
         self.particle.clear();
-        self.particle.extend(
-            (0..positions.len())
-                .filter(|&i| is_target(i))
-                .map(|i| i as u32),
-        );
+        let is_kept = self.reaches.are_many() && self.arranged.still_serves(positions.len());
+        if is_kept {
+            self.particle.extend_from_slice(&self.arranged.order);
+        } else {
+            self.particle.extend(
+                (0..positions.len())
+                    .filter(|&i| is_target(i))
+                    .map(|i| i as u32),
+            );
+            cluster(at, &mut self.particle);
+        }
         self.targets = self.particle.len();
-        cluster(at, &mut self.particle);
         self.slot_of.clear();
         self.slot_of.resize(positions.len(), u32::MAX);
         for (slot, &i) in self.particle.iter().enumerate() {
@@ -312,6 +343,15 @@ impl<const D: usize> CellList<D> {
                 }
             });
         self.padding = point::add(Bounds::of(&sources).max, [2.0 * reach; D]);
+        if self.reaches.are_many() {
+            let lane_pairs = self.blocks.lane_pairs();
+            if is_kept {
+                self.arranged.wear(lane_pairs);
+            } else {
+                let order = self.particle[..self.targets].to_vec();
+                self.arranged = Arranged::new(order, positions.len(), lane_pairs);
+            }
+        }
     }
 
     /// Appends a slot for every periodic image within `reach` of the box; fills `shift`.

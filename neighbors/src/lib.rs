@@ -2,6 +2,7 @@
 //!
 #![doc = include_str!("../README.md")]
 
+mod arranged;
 mod block;
 mod bounds;
 mod cell_list;
@@ -22,6 +23,7 @@ pub mod words;
 #[cfg(test)]
 mod tests;
 
+pub use arranged::Arranged;
 pub use block::{Block, Blocks, GROUP, SHELLS};
 pub use bounds::Bounds;
 pub use cell_list::{CellList, Slot};

@@ -15,7 +15,8 @@ pub(crate) struct Octaves<const D: usize> {
     pub(crate) octaves: Vec<Octave<D>>,
     /// Slots.
     pub(crate) slots: Vec<u32>,
-    pub(crate) positions: Vec<[f64; D]>,
+    /// Coordinate by coordinate.
+    pub(crate) at: [Vec<f64>; D],
     /// Reach of each, skin included; empty where all have one.
     pub(crate) reaches: Vec<f64>,
 }
@@ -35,7 +36,7 @@ impl<const D: usize> Default for Octaves<D> {
         Self {
             octaves: Vec::new(),
             slots: Vec::new(),
-            positions: Vec::new(),
+            at: std::array::from_fn(|_| Vec::new()),
             reaches: Vec::new(),
         }
     }
@@ -55,15 +56,21 @@ impl<const D: usize> Octaves<D> {
         octave.reach = reach;
         octave.cells.build(sources, CELL_OVER_REACH * reach);
         self.slots.extend_from_slice(octave.cells.items());
-        let sorted = (self.slots.par_iter().with_min_len(4096)).map(|&slot| sources[slot as usize]);
-        sorted.collect_into_vec(&mut self.positions);
+        for (k, at) in self.at.iter_mut().enumerate() {
+            let sorted = self.slots.par_iter().with_min_len(4096);
+            sorted
+                .map(|&slot| sources[slot as usize][k])
+                .collect_into_vec(at);
+        }
     }
 
     /// Sorts sources of which each has its reach: positive and finite.
     pub(crate) fn build_many(&mut self, sources: &[[f64; D]], reaches: &[f64]) {
         self.octaves.clear();
         self.slots.clear();
-        self.positions.clear();
+        for at in &mut self.at {
+            at.clear();
+        }
         self.reaches.clear();
         let least = reaches.iter().copied().fold(f64::INFINITY, f64::min);
         let octave = |slot: &u32| (reaches[*slot as usize] / least).log2().ceil() as u32;
@@ -82,7 +89,9 @@ impl<const D: usize> Octaves<D> {
             for &item in octave.cells.items() {
                 let slot = members[item as usize];
                 self.slots.push(slot);
-                self.positions.push(places[item as usize]);
+                for (at, &x) in self.at.iter_mut().zip(&places[item as usize]) {
+                    at.push(x);
+                }
                 self.reaches.push(reaches[slot as usize]);
             }
             self.octaves.push(octave);

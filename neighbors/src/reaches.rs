@@ -27,8 +27,9 @@ impl Reaches {
         }
     }
 
-    pub(crate) fn set_skin(&mut self, skin: f64) {
-        self.skin = skin;
+    /// Whether it is another than before.
+    pub(crate) fn set_skin(&mut self, skin: f64) -> bool {
+        std::mem::replace(&mut self.skin, skin) != skin
     }
 
     /// Whether every particle has its own.

@@ -56,8 +56,6 @@ pub(crate) struct Scratch<const D: usize> {
     at: [Vec<f64>; D],
     /// Reaches, where these differ.
     reaches: Vec<f64>,
-    /// Places in these of what is within reach of one block's box.
-    near: Vec<u32>,
     /// The candidates of one block.
     pub(crate) found: Found,
 }
@@ -68,7 +66,6 @@ impl<const D: usize> Default for Scratch<D> {
             slots: Vec::new(),
             at: std::array::from_fn(|_| Vec::new()),
             reaches: Vec::new(),
-            near: Vec::new(),
             found: Found::default(),
         }
     }
@@ -97,7 +94,7 @@ impl<const D: usize> Search<'_, D> {
                         .slots
                         .extend_from_slice(&sorted.slots[range.clone()]);
                     for (k, at) in scratch.at.iter_mut().enumerate() {
-                        at.extend(sorted.positions[range.clone()].iter().map(|p| p[k]));
+                        at.extend_from_slice(&sorted.at[k][range.clone()]);
                     }
                     if let Some(reaches) = sorted.reaches.get(range) {
                         scratch.reaches.extend_from_slice(reaches);
@@ -118,119 +115,110 @@ impl<const D: usize> Search<'_, D> {
     pub(crate) fn block(&self, members: Members<'_, D>, scratch: &mut Scratch<D>) {
         dispatch!(self.level, simd => {
             if members.reaches.is_empty() {
-                self.near_box::<_, false>(simd, members, scratch);
-                self.near_targets::<_, false>(simd, members, scratch);
+                self.near::<_, false>(simd, members, scratch);
             } else {
-                self.near_box::<_, true>(simd, members, scratch);
-                self.near_targets::<_, true>(simd, members, scratch);
+                self.near::<_, true>(simd, members, scratch);
             }
         });
     }
 
-    /// What is within reach of the box, eight sources at a time.
+    /// What is within reach of some target, eight sources at a time: where one of these is within reach of the targets' box,
+    /// the nearest target of either half tells whether a source is a candidate, and in which shell.
     #[inline(always)]
-    fn near_box<S: Simd, const MANY: bool>(
+    fn near<S: Simd, const MANY: bool>(
         &self,
         simd: S,
         members: Members<'_, D>,
         scratch: &mut Scratch<D>,
     ) {
         let bounds = Bounds::of(members.positions);
-        let reach = members.reach(self.reach);
+        let last = members.positions.len() - 1;
         let zero = f64x8::splat(simd, 0.0);
-        let own = f64x8::splat(simd, reach);
-        let mut within = f64x8::splat(simd, reach * reach * (1.0 + ROUNDING));
-        let rounding = f64x8::splat(simd, 1.0 + ROUNDING);
         let (mut min, mut max) = ([zero; D], [zero; D]);
         for k in 0..D {
             min[k] = f64x8::splat(simd, bounds.min[k]);
             max[k] = f64x8::splat(simd, bounds.max[k]);
         }
-        // Slices of their own: the compiler then knows that they stay where they are.
-        let at: [&[[f64; LANES]]; D] = scratch.at.each_ref().map(|at| at.as_chunks().0);
-        let reaches: &[[f64; LANES]] = scratch.reaches.as_chunks().0;
-        scratch.near.resize(at[0].len() * LANES + 1, 0);
-        let near = &mut scratch.near[..];
-        let mut count = 0;
-        for vector in 0..at[0].len() {
-            let mut square = zero;
-            for k in 0..D {
-                let x: f64x8<S> = at[k][vector].simd_into(simd);
-                let gap = (min[k] - x).max(x - max[k]).max(zero);
-                square = gap.mul_add(gap, square);
-            }
+        // Lanes beyond a short block repeat its last target.
+        let mut targets = [[0.0; D]; LANES];
+        let mut target_reaches = [self.reach; LANES];
+        for lane in 0..LANES {
+            targets[lane] = members.positions[lane.min(last)];
             if MANY {
-                let theirs: f64x8<S> = reaches[vector].simd_into(simd);
-                let reach = theirs.max(own);
-                within = reach * reach * rounding;
-            }
-            let bits = square.simd_le(within).to_bitmask() as usize;
-            // Written always, kept where the bit is set: a branch would be guessed wrong every other time.
-            for lane in 0..LANES {
-                near[count] = (vector * LANES + lane) as u32;
-                count += bits >> lane & 1;
+                target_reaches[lane] = members.reaches[lane.min(last)];
             }
         }
-        scratch.near.truncate(count);
-    }
-
-    /// What is within reach of some target, eight targets at a time.
-    #[inline(always)]
-    fn near_targets<S: Simd, const MANY: bool>(
-        &self,
-        simd: S,
-        members: Members<'_, D>,
-        scratch: &mut Scratch<D>,
-    ) {
-        let last = members.positions.len() - 1;
-        let mut x = [f64x8::splat(simd, 0.0); D];
-        for k in 0..D {
-            let mut lanes = [0.0; LANES];
-            for lane in 0..LANES {
-                lanes[lane] = members.positions[lane.min(last)][k];
-            }
-            x[k] = lanes.simd_into(simd);
-        }
-        let mut own = f64x8::splat(simd, self.reach);
-        if MANY {
-            let mut lanes = [0.0; LANES];
-            for lane in 0..LANES {
-                lanes[lane] = members.reaches[lane.min(last)];
-            }
-            own = lanes.simd_into(simd);
-        }
+        let greatest = f64x8::splat(simd, members.reach(self.reach));
         let rounding = f64x8::splat(simd, 1.0 + ROUNDING);
         let mut within = f64x8::splat(simd, self.reach * self.reach * (1.0 + ROUNDING));
         let mut begins = [within; SHELLS - 1];
         for s in 0..SHELLS - 1 {
             begins[s] = f64x8::splat(simd, self.begins[s] * self.begins[s] * (1.0 + ROUNDING));
         }
-        let at: [&[f64]; D] = scratch.at.each_ref().map(Vec::as_slice);
-        let reaches = &scratch.reaches[..];
+        // Slices of their own: the compiler then knows that they stay where they are.
+        let at: [&[[f64; LANES]]; D] = scratch.at.each_ref().map(|at| at.as_chunks().0);
+        let reaches: &[[f64; LANES]] = scratch.reaches.as_chunks().0;
         let (slots, found) = (&scratch.slots[..], &mut scratch.found);
-        for &place in &scratch.near {
-            let place = place as usize;
-            let mut square = f64x8::splat(simd, 0.0);
+        for vector in 0..at[0].len() {
+            let mut x = [zero; D];
+            let mut square = zero;
             for k in 0..D {
-                let d = x[k] - f64x8::splat(simd, at[k][place]);
-                square = d.mul_add(d, square);
+                x[k] = at[k][vector].simd_into(simd);
+                let gap = (min[k] - x[k]).max(x[k] - max[k]).max(zero);
+                square = gap.mul_add(gap, square);
             }
-            let mut unit = rounding;
+            let mut theirs = greatest;
             if MANY {
-                let reach = own.max(f64x8::splat(simd, reaches[place]));
-                unit = reach * reach;
-                within = unit * rounding;
+                theirs = reaches[vector].simd_into(simd);
+                let reach = theirs.max(greatest);
+                within = reach * reach * rounding;
             }
-            let near = square.simd_le(within).to_bitmask();
-            let halves = usize::from(near & 0xf != 0) + 2 * usize::from(near & 0xf0 != 0);
-            // A shell is as far away as its nearest target.
-            let mut shell = SHELLS - 1;
+            let in_box = square.simd_le(within).to_bitmask();
+            if in_box == 0 {
+                continue;
+            }
+            // Squared distances from the nearest target of either half; where reaches differ, over the square of the greater one.
+            let mut nearest = [f64x8::splat(simd, f64::INFINITY); 2];
+            let inverse = if MANY {
+                f64x8::splat(simd, 1.0) / (theirs * theirs)
+            } else {
+                zero
+            };
+            for half in 0..2 {
+                for lane in half * LANES / 2..(half + 1) * LANES / 2 {
+                    let mut square = zero;
+                    for k in 0..D {
+                        let d = f64x8::splat(simd, targets[lane][k]) - x[k];
+                        square = d.mul_add(d, square);
+                    }
+                    if MANY {
+                        let own = target_reaches[lane];
+                        square *= inverse.min(f64x8::splat(simd, 1.0 / (own * own)));
+                    }
+                    nearest[half] = nearest[half].min(square);
+                }
+            }
+            let near = if MANY { rounding } else { within };
+            let one = nearest[0].simd_le(near).to_bitmask() & in_box;
+            let two = nearest[1].simd_le(near).to_bitmask() & in_box;
+            let all = nearest[0].min(nearest[1]);
+            let mut inner = [0; SHELLS - 1];
             for s in 0..SHELLS - 1 {
-                let begin = if MANY { begins[s] * unit } else { begins[s] };
-                shell -= usize::from(square.simd_lt(begin).any_true());
+                inner[s] = all.simd_lt(begins[s]).to_bitmask();
             }
-            let slot = slots[place];
-            found.add(slot, (slot as usize) < self.targets, shell, halves);
+            let mut left = one | two;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let bit = |mask: u64| (mask >> lane & 1) as usize;
+                let mut shell = SHELLS - 1;
+                for s in 0..SHELLS - 1 {
+                    shell -= bit(inner[s]);
+                }
+                let slot = slots[vector * LANES + lane];
+                let is_target = (slot as usize) < self.targets;
+                found.add(slot, is_target, shell, bit(one) + 2 * bit(two));
+            }
         }
     }
 }

@@ -40,12 +40,11 @@ pub struct Group<'a, S: Simd, const D: usize> {
     pub inverse: Several<S>,
     /// The sources' weights, usually V_j; zero for padding.
     pub weight: [f64x8<S>; GROUP],
-    /// W(r, h_i), where the term asks for it ([`crate::Term::OWN`]).
+    /// W(r, h_i), where the term asks for it ([`crate::Term::OWN`]); else zero.
     pub own: Values<S>,
     /// W(r, h_j), where the term asks for it ([`crate::Term::THEIRS`]); else as [`Group::own`].
     pub theirs: Values<S>,
-    /// W(r, h̄) with h̄² = a h_i² + (1 − a) h_j² and a = [`crate::Term::own_part`], ½ by default, where the term asks for it
-    /// ([`crate::Term::MEAN`]); else as [`Group::own`].
+    /// W(r, h̄) with h̄² = (h_i² + h_j²)/2, where the term asks for it ([`crate::Term::MEAN`]); else as [`Group::own`].
     pub mean: Values<S>,
     /// d²W/dr² = this · [`Scale::over_r`] for W(r, h_i), where the term asks for it ([`crate::Term::CURVATURE`]); else as
     /// [`Values::slope`].

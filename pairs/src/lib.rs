@@ -16,10 +16,11 @@ pub use fields::{Fields, Pairs};
 pub use gathered::{Gathered, unit};
 pub use group::{Group, Scale, Targets, Values};
 pub use lanes::Several;
-pub use packing_sums::{PackingSum, PackingSums, PackingTerms, Shape, SizedSum, SizedTerms};
+pub use packing_sums::{PackingSum, PackingSums, PackingTerms, Shape, SizedSum};
 pub use term::Term;
 pub use terms::{
-    Averaged, AveragedSum, Density, DensitySum, Gradient, Repulsion, RepulsionSum, SizedRepulsion,
-    SizedRepulsionSum, TargetGradient, Variation, VariationSum,
+    Density, DensityBy, DensityBySum, DensitySum, Gather, Gradient, Length, Mean, Repulsion,
+    RepulsionSum, Scatter, SizedRepulsion, SizedRepulsionSum, TargetGradient, Variation,
+    VariationSum,
 };
 pub use walk::{shells, walk};

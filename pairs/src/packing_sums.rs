@@ -7,7 +7,8 @@ use sphpack_neighbors::{Blocks, SHELLS};
 use crate::gathered::Gathered;
 use crate::term::Term;
 use crate::terms::{
-    Averaged, Density, Gradient, Repulsion, SizedRepulsion, TargetGradient, Variation, VariationSum,
+    Density, DensityBy, DensityBySum, Gather, Gradient, Mean, Repulsion, Scatter, SizedRepulsion,
+    TargetGradient, Variation, VariationSum,
 };
 use crate::walk::{shells, walk};
 
@@ -68,11 +69,8 @@ pub type PackingTerms = (Density, Gradient, Repulsion);
 /// What [`PackingSums::sum`] finds for a target.
 pub type PackingSum = <PackingTerms as Term>::Sum;
 
-/// The terms of [`PackingSums::sum_sized`].
-pub type SizedTerms = (Averaged, SizedRepulsion);
-
-/// What [`PackingSums::sum_sized`] finds for a target.
-pub type SizedSum = <SizedTerms as Term>::Sum;
+/// What [`PackingSums::gather`] and [`PackingSums::average`] find for a target.
+pub type SizedSum = <(DensityBy<Gather>, SizedRepulsion) as Term>::Sum;
 
 impl PackingSums<'_> {
     /// Density, kernel gradient sum and repulsion of every target, `D` of 2 or 3. One entry of `out` per target slot. No
@@ -118,28 +116,79 @@ impl PackingSums<'_> {
         }
     }
 
-    /// Density by whichever h, and repulsion, between particles of many sizes. Otherwise as [`PackingSums::sum`].
+    /// Density by every target's own h, and repulsion, between particles of many sizes. Otherwise as [`PackingSums::sum`].
     ///
     /// # Panics
     /// Where `out` is not as long as there are targets.
-    pub fn sum_sized<const D: usize>(self, terms: SizedTerms, out: &mut [SizedSum]) {
+    pub fn gather<const D: usize>(self, repulsion: SizedRepulsion, out: &mut [SizedSum]) {
+        const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
+        let terms = (DensityBy::default(), repulsion);
+        if D == 2 {
+            gather_in_plane(self, &terms, out);
+        } else {
+            gather_in_space(self, &terms, out);
+        }
+    }
+
+    /// Density by the mean h of every pair, and repulsion, between particles of many sizes. Otherwise as [`PackingSums::sum`].
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are targets.
+    pub fn average<const D: usize>(self, repulsion: SizedRepulsion, out: &mut [SizedSum]) {
+        const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
+        let terms = (DensityBy::default(), repulsion);
+        if D == 2 {
+            average_in_plane(self, &terms, out);
+        } else {
+            average_in_space(self, &terms, out);
+        }
+    }
+
+    /// Density by every source's h. Otherwise as [`PackingSums::sum`].
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are targets.
+    pub fn scatter<const D: usize>(self, out: &mut [DensityBySum]) {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         if D == 2 {
-            sized_in_plane(self, &terms, out);
+            scatter_in_plane(self, out);
         } else {
-            sized_in_space(self, &terms, out);
+            scatter_in_space(self, out);
         }
     }
 }
 
-fn sized_in_plane(of: PackingSums<'_>, terms: &SizedTerms, out: &mut [SizedSum]) {
+type Gathering = (DensityBy<Gather>, SizedRepulsion);
+type Averaging = (DensityBy<Mean>, SizedRepulsion);
+
+fn gather_in_plane(of: PackingSums<'_>, terms: &Gathering, out: &mut [SizedSum]) {
     let work = Work { of, terms, out };
     of.shape.with::<2, _>(of.length, work);
 }
 
-fn sized_in_space(of: PackingSums<'_>, terms: &SizedTerms, out: &mut [SizedSum]) {
+fn gather_in_space(of: PackingSums<'_>, terms: &Gathering, out: &mut [SizedSum]) {
     let work = Work { of, terms, out };
     of.shape.with::<3, _>(of.length, work);
+}
+
+fn average_in_plane(of: PackingSums<'_>, terms: &Averaging, out: &mut [SizedSum]) {
+    let work = Work { of, terms, out };
+    of.shape.with::<2, _>(of.length, work);
+}
+
+fn average_in_space(of: PackingSums<'_>, terms: &Averaging, out: &mut [SizedSum]) {
+    let work = Work { of, terms, out };
+    of.shape.with::<3, _>(of.length, work);
+}
+
+fn scatter_in_plane(of: PackingSums<'_>, out: &mut [DensityBySum]) {
+    let terms = &DensityBy::<Scatter>::default();
+    of.shape.with::<2, _>(of.length, Work { of, terms, out });
+}
+
+fn scatter_in_space(of: PackingSums<'_>, out: &mut [DensityBySum]) {
+    let terms = &DensityBy::<Scatter>::default();
+    of.shape.with::<3, _>(of.length, Work { of, terms, out });
 }
 
 fn sum_in_plane(of: PackingSums<'_>, terms: &PackingTerms, out: &mut [PackingSum]) {

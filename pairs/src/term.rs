@@ -26,11 +26,6 @@ pub trait Term: Clone + Sync {
     /// Whether sources that are no targets count.
     const OTHERS: bool = true;
 
-    /// The part a that the target's own h has in [`Group::mean`].
-    fn own_part(&self) -> f64 {
-        0.5
-    }
-
     /// The same term where lengths are multiplied by `unit`.
     #[must_use]
     fn in_unit(&self, unit: f64) -> Self {
@@ -65,16 +60,6 @@ macro_rules! tuples {
             const MEAN: bool = $($name::MEAN)||+;
             const CURVATURE: bool = $($name::CURVATURE)||+;
             const OTHERS: bool = $($name::OTHERS)||+;
-
-            /// That of the first term that asks.
-            fn own_part(&self) -> f64 {
-                $(
-                    if $name::MEAN {
-                        return self.$number.own_part();
-                    }
-                )+
-                0.5
-            }
 
             fn in_unit(&self, unit: f64) -> Self {
                 ($(self.$number.in_unit(unit),)+)

@@ -39,8 +39,6 @@ pub fn walk<K: Kernel<D>, T: Term, const D: usize>(
     let h = kernel.smoothing_length() * unit;
     let value = K::Profile::SIGMA / h.powi(D as i32);
     let run = Run {
-        own_part: term.own_part(),
-        is_mean_own: gathered.sizes.is_empty() || term.own_part() == 1.0,
         term: &term.in_unit(unit),
         gathered,
         smoothing_length: h,
@@ -57,10 +55,6 @@ pub fn walk<K: Kernel<D>, T: Term, const D: usize>(
 /// What is the same for all blocks, in the loop's unit of length.
 struct Run<'a, T> {
     term: &'a T,
-    /// Of the target's h in a mean.
-    own_part: f64,
-    /// Whether that mean is the target's own h: all have one, or no other has a part in it.
-    is_mean_own: bool,
     gathered: &'a Gathered,
     /// Of all, where sources have no own.
     smoothing_length: f64,
@@ -212,8 +206,9 @@ impl<'a, S: Simd, T: Term, const D: usize> Walk<'a, S, T, D> {
         }
         let (r, inverse) = roots(Several(at_least));
         let by_own = Several([self.inverse; GROUP]);
-        // The kernel is most of a pair: not twice where only the mean is asked for.
-        let own = if T::OWN || self.run.is_mean_own {
+        // The kernel is most of a pair: only those that the term asks for, and each in one place whether sizes differ or not,
+        // or the loop has too many numbers for its registers.
+        let own = if T::OWN {
             values::<S, P, PIECE, D>(r, by_own)
         } else {
             let none = Several([zero; GROUP]);
@@ -223,27 +218,27 @@ impl<'a, S: Simd, T: Term, const D: usize> Walk<'a, S, T, D> {
             }
         };
         let (mut theirs, mut mean) = (own, own);
-        if (T::THEIRS || T::MEAN) && !gathered.sizes.is_empty() {
-            let sizes = &gathered.sizes[..];
-            if T::THEIRS {
-                let of = Several(slots.load(simd, |slot| sizes[slot][1]));
-                theirs = relative(values::<S, P, PIECE, D>(r, of), self.size, of, D);
+        let sizes = &gathered.sizes[..];
+        if T::THEIRS {
+            let of = if sizes.is_empty() {
+                by_own
+            } else {
+                Several(slots.load(simd, |slot| sizes[slot][1]))
+            };
+            theirs = relative(values::<S, P, PIECE, D>(r, of), self.size, of, D);
+        }
+        if T::MEAN {
+            let mut square = [self.size; GROUP];
+            if !sizes.is_empty() {
+                square = slots.load(simd, |slot| sizes[slot][0]);
             }
-            if T::MEAN && !self.run.is_mean_own {
-                let of = if self.run.own_part == 0.0 {
-                    Several(slots.load(simd, |slot| sizes[slot][1]))
-                } else {
-                    let mut square = slots.load(simd, |slot| sizes[slot][0]);
-                    let part = f64x8::splat(simd, self.run.own_part);
-                    let rest = f64x8::splat(simd, 1.0 - self.run.own_part);
-                    for j in 0..GROUP {
-                        let theirs = rest * square[j] * square[j];
-                        square[j] = (part * self.size).mul_add(self.size, theirs);
-                    }
-                    roots(Several(square)).1
-                };
-                mean = relative(values::<S, P, PIECE, D>(r, of), self.size, of, D);
+            let half = f64x8::splat(simd, 0.5);
+            for j in 0..GROUP {
+                let theirs = half * square[j] * square[j];
+                square[j] = (half * self.size).mul_add(self.size, theirs);
             }
+            let of = roots(Several(square)).1;
+            mean = relative(values::<S, P, PIECE, D>(r, of), self.size, of, D);
         }
         let mut curvature = own.slope;
         if T::CURVATURE {

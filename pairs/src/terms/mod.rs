@@ -9,5 +9,7 @@ mod variation;
 pub use density::{Density, DensitySum};
 pub use gradient::{Gradient, TargetGradient};
 pub use repulsion::{Repulsion, RepulsionSum};
-pub use sized::{Averaged, AveragedSum, SizedRepulsion, SizedRepulsionSum};
+pub use sized::{
+    DensityBy, DensityBySum, Gather, Length, Mean, Scatter, SizedRepulsion, SizedRepulsionSum,
+};
 pub use variation::{Variation, VariationSum};

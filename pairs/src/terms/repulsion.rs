@@ -6,6 +6,9 @@ use sphpack_neighbors::{GROUP, LANES};
 use crate::group::{Group, Scale, Targets};
 use crate::term::Term;
 
+/// A squared reach that rounding has made no shorter.
+const ROUNDED: f64 = 1.0 + 1e-12;
+
 /// The repulsion of Negi and Ramachandran (2021), eqs. 15 and 16: the gradient of 12 k_r (c²/r³ − c/r²) with
 /// c = 2α∆s/3, between ∆s/2 and α∆s, where it vanishes; constant below ∆s/2.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,6 +111,14 @@ impl Repulsion {
     #[inline(always)]
     pub(crate) fn energy_scale(&self) -> f64 {
         self.loops.energy_scale
+    }
+
+    /// Whether it may act on any lane of pairs that are so much larger than those that it is given for; a division less than to
+    /// find out by [`Repulsion::pair`].
+    #[inline(always)]
+    pub(crate) fn reaches<S: Simd>(&self, square: f64x8<S>, larger: f64x8<S>) -> bool {
+        let reach = f64x8::splat(square.simd, self.loops.reach_squared * ROUNDED);
+        square.simd_lt(reach * larger * larger).any_true()
     }
 
     /// Force and potential at a squared distance and the inverse of that distance, as the loop computes them: lane by lane, zero where

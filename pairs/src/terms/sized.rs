@@ -4,60 +4,86 @@
 use fearless_simd::{Simd, f64x8, prelude::*};
 use sphpack_neighbors::{GROUP, LANES};
 
-use crate::group::{Group, Scale, Targets};
+use crate::group::{Group, Scale, Targets, Values};
 use crate::lanes::Several;
 use crate::term::Term;
 use crate::terms::Repulsion;
 
-/// Σ_j w_j W(r_ij, h̄) with h̄² = a h_i² + (1 − a) h_j², its gradient, and how it answers to h̄.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Averaged {
-    /// a: 1 is the target's own h ("gather"), 0 the source's ("scatter"), ½ their root mean square.
-    pub own_part: f64,
-    /// The unit of lengths over the scene's.
-    unit: f64,
+/// Whose smoothing length a kernel takes.
+pub trait Length: Copy + std::fmt::Debug + Default + PartialEq + Send + Sync + 'static {
+    /// Whether it is the target's own.
+    const OWN: bool = false;
+    /// Whether it is the source's.
+    const THEIRS: bool = false;
+
+    /// The kernel by it.
+    fn of<S: Simd, const D: usize>(group: &Group<'_, S, D>) -> Values<S>;
 }
 
-impl Averaged {
-    /// By the target's own h.
-    pub const GATHER: Self = Self::by(1.0);
-    /// By the source's.
-    pub const SCATTER: Self = Self::by(0.0);
-    /// By the root mean square of both.
-    pub const MEAN: Self = Self::by(0.5);
+/// The target's own h.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Gather;
 
-    /// With so much of the target's own h, between 0 and 1.
-    #[must_use]
-    pub const fn by(own_part: f64) -> Self {
-        Self {
-            own_part,
-            unit: 1.0,
-        }
+/// The source's h.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Scatter;
+
+/// The root mean square of both.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Mean;
+
+impl Length for Gather {
+    const OWN: bool = true;
+
+    #[inline(always)]
+    fn of<S: Simd, const D: usize>(group: &Group<'_, S, D>) -> Values<S> {
+        group.own
     }
 }
 
-/// The sums of [`Averaged`].
+impl Length for Scatter {
+    const THEIRS: bool = true;
+
+    #[inline(always)]
+    fn of<S: Simd, const D: usize>(group: &Group<'_, S, D>) -> Values<S> {
+        group.theirs
+    }
+}
+
+impl Length for Mean {
+    #[inline(always)]
+    fn of<S: Simd, const D: usize>(group: &Group<'_, S, D>) -> Values<S> {
+        group.mean
+    }
+}
+
+/// Σ_j w_j W(r_ij, h) by the h of `L`, its gradient and, by the target's own, how it answers to h.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct AveragedSum {
+pub struct DensityBy<L> {
+    by: L,
+    /// The unit of the loop's lengths.
+    unit: f64,
+}
+
+/// The sums of [`DensityBy`].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct DensityBySum {
     /// Σ_j w_j W.
     pub value: f64,
     /// Σ_j w_j ∇_iW; coordinates beyond D are zero.
     pub gradient: [f64; 3],
-    /// Σ_j w_j r_ij W'. By the target's own h, ∂(Σ_j w_j W)/∂h_i = −(D value + this)/h_i.
+    /// By the target's own h, Σ_j w_j r_ij W': ∂(Σ_j w_j W)/∂h_i = −(D value + this)/h_i. Else zero.
     pub stretch: f64,
 }
 
-impl Term for Averaged {
-    type Sum = AveragedSum;
+impl<L: Length> Term for DensityBy<L> {
+    type Sum = DensityBySum;
     /// Gradient, value, stretch.
     type Lanes<S: Simd> = [f64x8<S>; 5];
 
-    const OWN: bool = false;
-    const MEAN: bool = true;
-
-    fn own_part(&self) -> f64 {
-        self.own_part
-    }
+    const OWN: bool = L::OWN;
+    const THEIRS: bool = L::THEIRS;
+    const MEAN: bool = !L::OWN && !L::THEIRS;
 
     fn in_unit(&self, unit: f64) -> Self {
         Self { unit, ..*self }
@@ -71,10 +97,13 @@ impl Term for Averaged {
     #[inline(always)]
     fn add<S: Simd, const D: usize>(&self, sums: &mut Self::Lanes<S>, group: &Group<'_, S, D>) {
         let weight = Several(group.weight);
-        let over_r = group.mean.slope * group.inverse * weight;
+        let kernel = L::of(group);
+        let over_r = kernel.slope * group.inverse * weight;
         for j in 0..GROUP {
-            sums[3] = weight.0[j].mul_add(group.mean.value.0[j], sums[3]);
-            sums[4] = over_r.0[j].mul_add(group.square[j], sums[4]);
+            sums[3] = weight.0[j].mul_add(kernel.value.0[j], sums[3]);
+            if L::OWN {
+                sums[4] = over_r.0[j].mul_add(group.square[j], sums[4]);
+            }
             for k in 0..D {
                 sums[k] = over_r.0[j].mul_add(group.apart[j][k], sums[k]);
             }
@@ -84,12 +113,16 @@ impl Term for Averaged {
     #[inline(always)]
     fn finish<S: Simd>(&self, sums: Self::Lanes<S>, scale: &Scale<S>) -> [Self::Sum; LANES] {
         let value: [f64; LANES] = (scale.value * sums[3]).into();
-        let per_unit = f64x8::splat(sums[4].simd, 1.0 / self.unit);
-        let stretch: [f64; LANES] = (scale.slope * per_unit * sums[4]).into();
-        let mut all = [AveragedSum::default(); LANES];
+        let mut all = [DensityBySum::default(); LANES];
         for lane in 0..LANES {
             all[lane].value = value[lane];
-            all[lane].stretch = stretch[lane];
+        }
+        if L::OWN {
+            let per_unit = f64x8::splat(sums[4].simd, 1.0 / self.unit);
+            let stretch: [f64; LANES] = (scale.slope * per_unit * sums[4]).into();
+            for lane in 0..LANES {
+                all[lane].stretch = stretch[lane];
+            }
         }
         for k in 0..3 {
             let lanes: [f64; LANES] = (scale.slope * sums[k]).into();
@@ -168,6 +201,9 @@ impl Term for SizedRepulsion {
                 Some(larger) => larger[j],
                 None => one,
             };
+            if !(self.repulsion).reaches(group.square[j], larger) {
+                continue;
+            }
             let smaller = one / larger;
             let inverse = group.inverse.0[j];
             let scaled =

@@ -1,10 +1,12 @@
-//! Densities by any mixture of both smoothing lengths, and the repulsion between particles of many sizes, against all pairs and
+//! Densities by either smoothing length of a pair or their mean, and the repulsion between particles of many sizes, against all pairs and
 //! differences.
 
 use proptest::prelude::*;
 use sphpack_kernels::{Kernel, Quintic};
 use sphpack_neighbors::{CellList, Domain, point};
-use sphpack_pairs::{Averaged, Fields, Pairs, Repulsion, SizedRepulsion, shells};
+use sphpack_pairs::{
+    DensityBy, Fields, Gather, Length, Mean, Pairs, Repulsion, Scatter, SizedRepulsion, shells,
+};
 
 use super::levels;
 
@@ -27,7 +29,7 @@ impl<const D: usize> Set<D> {
         self.sizes[i].powi(D as i32) * (1.0 + 0.5 * (i as f64).sin())
     }
 
-    /// Value, gradient and stretch of particle `i`, and the size of what they are made of.
+    /// Value, gradient and stretch of particle `i`, by an h² of which so much is its own.
     fn density(&self, own_part: f64, i: usize) -> (f64, [f64; D], f64) {
         let (mut value, mut gradient, mut stretch) = (0.0, [0.0; D], 0.0);
         for j in 0..self.positions.len() {
@@ -71,20 +73,9 @@ impl<const D: usize> Set<D> {
         list.update_each(&self.positions, &supports, |_| true);
         for level in levels() {
             let pairs = Pairs::new(&list).with_level(level);
-            for own_part in [1.0, 0.0, 0.5, 0.25] {
-                let sums = pairs.sum(&Averaged::by(own_part), &fields);
-                for i in all.clone() {
-                    let (value, gradient, stretch) = self.density(own_part, i);
-                    let sum = &sums[i];
-                    let near = |a: f64, b: f64, size: f64| (a - b).abs() <= 1e-11 * size;
-                    let steep = 4.0 * value / self.sizes[i] + point::norm(gradient);
-                    prop_assert!(near(sum.value, value, value), "{level:?} {own_part} {i}");
-                    prop_assert!(near(sum.stretch, stretch, 10.0 * value), "{own_part} {i}");
-                    for k in 0..D {
-                        prop_assert!(near(sum.gradient[k], gradient[k], steep * 10.0));
-                    }
-                }
-            }
+            self.check_density::<Gather>(&pairs, &fields, 1.0)?;
+            self.check_density::<Scatter>(&pairs, &fields, 0.0)?;
+            self.check_density::<Mean>(&pairs, &fields, 0.5)?;
             for by_volume in [false, true] {
                 let term = SizedRepulsion {
                     repulsion: repulsion.at_size(1.0),
@@ -95,6 +86,28 @@ impl<const D: usize> Set<D> {
                 let expected = self.energy(&repulsion, by_volume);
                 prop_assert!((energy - expected).abs() <= 1e-10 * expected.max(1e-30));
                 self.check_slopes(&sums, &repulsion, by_volume)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_density<L: Length>(
+        &self,
+        pairs: &Pairs<'_, D>,
+        fields: &Fields<'_, Quintic<D>, D>,
+        own_part: f64,
+    ) -> Result<(), TestCaseError> {
+        let sums = pairs.sum(&DensityBy::<L>::default(), fields);
+        for i in 0..self.positions.len() {
+            let (value, gradient, stretch) = self.density(own_part, i);
+            let stretch = if own_part == 1.0 { stretch } else { 0.0 };
+            let sum = &sums[i];
+            let near = |a: f64, b: f64, size: f64| (a - b).abs() <= 1e-11 * size;
+            let steep = 4.0 * value / self.sizes[i] + point::norm(gradient);
+            prop_assert!(near(sum.value, value, value), "{own_part} {i}");
+            prop_assert!(near(sum.stretch, stretch, 10.0 * value), "{own_part} {i}");
+            for k in 0..D {
+                prop_assert!(near(sum.gradient[k], gradient[k], steep * 10.0));
             }
         }
         Ok(())

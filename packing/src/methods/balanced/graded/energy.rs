@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::{CellList, point};
 use sphpack_pairs::{
-    Averaged, AveragedSum, Gathered, PackingSums, Repulsion, Shape, SizedRepulsion, SizedSum,
+    DensityBySum, Gathered, PackingSums, Repulsion, Shape, SizedRepulsion, SizedSum,
 };
 
 use super::anchor::{Anchor, STRAIGHT};
@@ -69,7 +69,7 @@ pub(super) struct GradedEnergy<'a, const D: usize> {
     size_gradient: Vec<[f64; D]>,
     /// Of every target slot: by the energy's own h, and, of pressures, by the sources'.
     sums: Vec<SizedSum>,
-    scattered: Vec<SizedSum>,
+    scattered: Vec<DensityBySum>,
     pub(super) is_stale: bool,
     pub(super) is_changed: bool,
     value: f64,
@@ -88,8 +88,12 @@ pub(super) struct Regions {
     pub(super) volume: Vec<f64>,
 }
 
-/// Skin of the neighbour list, in parts of every support.
-const SKIN: f64 = 0.1;
+/// Skins of the neighbour list, in parts of every support: while particles are ordered, when some move by 0.2 of their spacing
+/// in every step, and while they are levelled, when a list lasts for tens of evaluations. A list takes as long as four sums; a
+/// wider skin makes all sums longer, in space by its third power.
+fn skins<const D: usize>() -> [f64; 2] {
+    if D == 2 { [0.3, 0.03] } else { [0.15, 0.04] }
+}
 
 /// A lattice's Γ₀ this near to 1 is 1: particles of many sizes are on none.
 const BIAS: f64 = 5e-4;
@@ -126,7 +130,7 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
             target: target(problem),
             regions,
             mirror: Mirror::new(problem.domain, problem.resolution.clone(), sight),
-            list: CellList::new(&problem.domain, support).with_skin(SKIN),
+            list: CellList::new(&problem.domain, support),
             built_with: Vec::new(),
             gathered: Gathered::default(),
             simd: Level::new(),
@@ -161,6 +165,12 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
         let shells = shape.shells::<D>(h, self.repulsion.reach());
         self.list.set_shells(shells.map(|radius| radius / support));
         let sizes = &self.movable.particles.sizes;
+        // Its blocks as compact as where particles are now.
+        self.list.invalidate();
+        self.list.set_skin(match aim {
+            Aim::Order => skins::<D>()[0],
+            Aim::Level { .. } => skins::<D>()[1],
+        });
         let power = match aim {
             // A step down the energy is as long as s²/V asks, down that of levelling as s².
             Aim::Order => 1.0 - 0.5 * D as f64,
@@ -316,8 +326,7 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
         let movable = &self.movable;
         match self.aim {
             Aim::Order => {
-                sums(kernel, h, list, &self.gathered, simd)
-                    .sum_sized::<D>((Averaged::MEAN, repulsion), &mut self.sums);
+                sums(kernel, h, list, &self.gathered, simd).average::<D>(repulsion, &mut self.sums);
                 let slots: Vec<usize> = (0..targets).collect();
                 self.value = blocked_sum(&slots, |&slot| {
                     let (density, repulsion) = &self.sums[slot];
@@ -339,8 +348,7 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
                     });
             }
             Aim::Level { stiffness } => {
-                sums(kernel, h, list, &self.gathered, simd)
-                    .sum_sized::<D>((Averaged::GATHER, repulsion), &mut self.sums);
+                sums(kernel, h, list, &self.gathered, simd).gather::<D>(repulsion, &mut self.sums);
                 let most = MOST_PRESSURE / stiffness;
                 let excess = |slot: usize| {
                     let off = self.sums[slot].0.value - self.target;
@@ -354,13 +362,8 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
                     set.pressure[count + image] = set.pressure[particle];
                 }
                 self.gathered.weigh(list, &set.pressure);
-                let none = SizedRepulsion {
-                    repulsion: Repulsion::none().at_size(h),
-                    by_volume: false,
-                };
-                self.scattered.resize(targets, SizedSum::default());
-                sums(kernel, h, list, &self.gathered, simd)
-                    .sum_sized::<D>((Averaged::SCATTER, none), &mut self.scattered);
+                self.scattered.resize(targets, DensityBySum::default());
+                sums(kernel, h, list, &self.gathered, simd).scatter::<D>(&mut self.scattered);
                 let slots: Vec<usize> = (0..targets).collect();
                 self.value = blocked_sum(&slots, |&slot| {
                     let (off, held) = excess(slot);
@@ -373,7 +376,7 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
                         && let Some(slot) = list.slot_of(i)
                     {
                         mean[self.regions.of[i] as usize] +=
-                            set.volume[i] * self.scattered[slot].0.value;
+                            set.volume[i] * self.scattered[slot].value;
                     }
                 }
                 for (mean, volume) in mean.iter_mut().zip(&self.regions.volume) {
@@ -388,12 +391,9 @@ impl<'a, const D: usize> GradedEnergy<'a, D> {
                         let i = i as usize;
                         let Some(slot) = list.slot_of(i) else { return };
                         let (density, repulsion) = &found[slot];
-                        let (
-                            AveragedSum {
-                                value, gradient, ..
-                            },
-                            _,
-                        ) = &scattered[slot];
+                        let DensityBySum {
+                            value, gradient, ..
+                        } = &scattered[slot];
                         let (pressure, volume) = (set.pressure[i], set.volume[i]);
                         let own = std::array::from_fn(|k| {
                             repulsion.force[k]

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use sphpack_neighbors::Arranged;
+
 use super::energy::GradedEnergy;
 use crate::sizes::Sizes;
 use crate::state::{Damaged, State, Value, all_finite, load_as_many};
@@ -20,6 +22,9 @@ impl<const D: usize> State for GradedEnergy<'_, D> {
         self.mirror.save(out)?;
         self.list.reference().to_vec().save(out)?;
         self.built_with.save(out)?;
+        let arranged = self.list.arranged();
+        arranged.order.save(out)?;
+        arranged.lane_pairs.save(out)?;
         self.evaluations.save(out)?;
         (self.neighbor_seconds, self.force_seconds).save(out)
     }
@@ -40,7 +45,7 @@ impl<const D: usize> State for GradedEnergy<'_, D> {
             return Err(Damaged);
         }
         self.mirror.load(from)?;
-        let reference = Vec::take(from)?;
+        let reference: Vec<[f64; D]> = Vec::take(from)?;
         self.built_with = Vec::take(from)?;
         if reference.len() != self.built_with.len()
             || reference.len() != count + self.mirror.len()
@@ -49,7 +54,12 @@ impl<const D: usize> State for GradedEnergy<'_, D> {
         {
             return Err(Damaged);
         }
-        self.list.invalidate();
+        let order = Vec::<u32>::take(from)?;
+        let lane_pairs = usize::take(from)?;
+        if !is_permutation(&order, count) {
+            return Err(Damaged);
+        }
+        (self.list).arrange(Arranged::new(order, reference.len(), lane_pairs));
         (self.list).update_each(&reference, &self.built_with, |i| i < count);
         let evaluations = usize::take(from)?;
         let spent = Value::take(from)?;
@@ -61,4 +71,13 @@ impl<const D: usize> State for GradedEnergy<'_, D> {
         (self.neighbor_seconds, self.force_seconds) = spent;
         Ok(())
     }
+}
+
+/// Whether these are the numbers from 0 to below `count`, each once.
+fn is_permutation(order: &[u32], count: usize) -> bool {
+    let mut is_there = vec![false; count];
+    order.len() == count
+        && order.iter().all(|&i| {
+            (is_there.get_mut(i as usize)).is_some_and(|seen| !std::mem::replace(seen, true))
+        })
 }
