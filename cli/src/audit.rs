@@ -285,7 +285,14 @@ impl Audit {
         let places: Vec<[f64; D]> = free.iter().map(|&i| particles.position[i]).collect();
         let slack = WRONG_SIDE_OVER_SPACING * spacing;
         let bounds = problem.domain.bounds;
-        let depths = Depths::of(&problem.bodies, bounds, spacing, slack, &places);
+        // It looks cube by cube, some for every particle: where sizes differ, by the mean one. At the finest a wing of 95,000
+        // particles of 50 : 1 took 6 million.
+        let mean = if particles.sizes.relative().is_some() {
+            (bounds.volume() / places.len().max(1) as f64).powf(1.0 / D as f64)
+        } else {
+            spacing
+        };
+        let depths = Depths::of(&problem.bodies, bounds, mean, slack, &places);
         let role = |b: usize| asked.role(b);
         let mut count = 0;
         let mut worst = (0.0, [0.0; D], String::new());

@@ -122,30 +122,37 @@ impl<const D: usize> ClosestPair<D> {
                 ..Self::NONE
             };
         };
-        let largest = sizes.iter().copied().fold(0.0, f64::max);
         (0..points.len())
             .into_par_iter()
             .with_min_len(1024)
-            .filter(|&i| is_asked(i))
             .map(|i| {
                 let mut pair = Self::NONE;
+                // The larger of two finds the other: a small one would look through all that is small as far as the largest see.
+                let sight = crowded * sizes[i];
                 for (number, image) in domain.images(points[i], reach).enumerate() {
-                    // The own image has itself first.
-                    let nearest = match number {
-                        0 => tree.nearest_n(image, 2).get(1).copied(),
-                        _ => tree.nearest(image),
-                    };
-                    let Some(nearest) = nearest else { continue };
-                    pair.distance = pair.distance.min(nearest.distance);
-                    let sight = 0.5 * crowded * (sizes[i] + largest);
-                    if nearest.distance > sight {
-                        continue;
+                    if is_asked(i) {
+                        // The own image has itself first.
+                        let nearest = match number {
+                            0 => tree.nearest_n(image, 2).get(1).copied(),
+                            _ => tree.nearest(image),
+                        };
+                        let Some(nearest) = nearest else { continue };
+                        pair.distance = pair.distance.min(nearest.distance);
+                        if nearest.distance > sight {
+                            continue;
+                        }
                     }
                     for found in tree.within(image, sight) {
-                        let over = 2.0 * found.distance / (sizes[i] + sizes[found.index]);
-                        if (number > 0 || found.index != i) && over < crowded.min(pair.crowded) {
+                        let j = found.index;
+                        let over = 2.0 * found.distance / (sizes[i] + sizes[j]);
+                        let own = number == 0 && j == i;
+                        if own || over >= crowded.min(pair.crowded) {
+                            continue;
+                        }
+                        let asked = [i.min(j), i.max(j)].into_iter().find(|&k| is_asked(k));
+                        if let Some(asked) = asked {
                             pair.crowded = over;
-                            pair.place = points[i];
+                            pair.place = points[asked];
                         }
                     }
                 }

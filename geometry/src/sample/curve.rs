@@ -63,6 +63,33 @@ pub(crate) fn along<const D: usize, S: Surface<D> + ?Sized>(
     count: usize,
 ) -> Vec<Closest<D>> {
     let lines: Vec<Polyline<D>> = rings.iter().map(Ring::line).collect();
+    along_lines(surface, rings, &lines, count)
+}
+
+/// [`along`] with intervals of the same integral of a positive weight rather than of the same length. Rings must have points
+/// wherever the weight changes.
+pub(super) fn along_weighted<const D: usize, S: Surface<D> + ?Sized>(
+    surface: &S,
+    rings: &[Ring<D>],
+    weight: &impl Fn([f64; D]) -> f64,
+    count: usize,
+) -> Vec<Closest<D>> {
+    let line = |ring: &Ring<D>| {
+        let points = ring.line().points().to_vec();
+        let weights: Vec<f64> = points.iter().map(|&p| weight(p)).collect();
+        Polyline::weighted(points, &weights)
+    };
+    let lines: Vec<Polyline<D>> = rings.iter().map(line).collect();
+    along_lines(surface, rings, &lines, count)
+}
+
+/// [`along`] rings that are measured as `lines` are.
+fn along_lines<const D: usize, S: Surface<D> + ?Sized>(
+    surface: &S,
+    rings: &[Ring<D>],
+    lines: &[Polyline<D>],
+    count: usize,
+) -> Vec<Closest<D>> {
     let length: f64 = lines.iter().map(Polyline::length).sum();
     if count == 0 || lines.is_empty() || length.is_nan() {
         return Vec::new();

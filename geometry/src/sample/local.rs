@@ -9,6 +9,8 @@ pub(crate) struct Local {
     pub(crate) spacing: f64,
     /// The same between points on opposite sides; 0 where the body is so thick that these leave each other alone.
     pub(crate) across: f64,
+    /// In what a point here measures its moves, scene units: the mean spacing of all, or its own where these differ much.
+    pub(crate) unit: f64,
 }
 
 impl Local {
@@ -17,6 +19,7 @@ impl Local {
         Self {
             spacing,
             across: 0.0,
+            unit: spacing,
         }
     }
 }
@@ -39,6 +42,13 @@ pub(super) fn apart<const D: usize>(
     } else {
         None
     }
+}
+
+/// Whether points measure their moves by units of their own.
+pub(super) fn have_units(locals: impl IntoIterator<Item = Local>) -> bool {
+    let mut units = locals.into_iter().map(|local| local.unit);
+    let first = units.next();
+    units.any(|unit| Some(unit) != first)
 }
 
 /// The greatest distance that is wanted anywhere.

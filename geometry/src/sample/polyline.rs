@@ -24,6 +24,18 @@ impl<const D: usize> Polyline<D> {
         Self { points, way }
     }
 
+    /// [`Polyline::new`] measured by the integral of a weight, given at every point, in place of arc length.
+    pub(super) fn weighted(points: Vec<[f64; D]>, weights: &[f64]) -> Self {
+        let mut line = Self::new(points);
+        let mut sum = 0.0;
+        for i in 1..line.points.len() {
+            let mean = 0.5 * (weights[i - 1] + weights[i]);
+            sum += mean * point::distance(line.points[i - 1], line.points[i]);
+            line.way[i] = sum;
+        }
+        line
+    }
+
     pub(super) fn points(&self) -> &[[f64; D]] {
         &self.points
     }

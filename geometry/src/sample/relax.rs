@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sphpack_neighbors::fire::Fire;
 use sphpack_neighbors::{CellList, Domain, point};
 
-use super::local::{Local, Spot, apart, greatest};
+use super::local::{Local, Spot, apart, greatest, have_units};
 use super::thinning::around;
 use crate::surface::Closest;
 
@@ -23,6 +23,9 @@ const LONGEST: f64 = 0.8;
 
 /// Farthest move in one step, in spacings.
 const FARTHEST: f64 = 0.1;
+
+/// Skin of the list of neighbours, in spacings.
+const SKIN: f64 = 0.3;
 
 /// A point may move so far, in spacings, along its tangent plane before it is put back onto the surface; where the
 /// normal turned by more than [`FLAT`] on the last way, less far.
@@ -93,7 +96,7 @@ pub(super) fn even_out<const D: usize>(
             .for_each(|(mover, &f)| {
                 let kept = point::scale(mover.velocity, keep);
                 mover.velocity = point::add_scaled(kept, turn + step, f);
-                mover.advance(step, spacing, near);
+                mover.advance(step, near);
                 if let Some(window) = window {
                     mover.point = window.clamp(mover.point);
                 }
@@ -114,19 +117,20 @@ struct Mover<const D: usize> {
     /// Where that was.
     put: [f64; D],
     leash: f64,
-    /// Along the tangent plane, spacings per unit of time.
+    /// Along the tangent plane, units of its own per unit of time.
     velocity: [f64; D],
 }
 
 impl<const D: usize> Mover<D> {
     /// Moves along the tangent plane, and onto the surface where the leash is at its end.
-    fn advance(&mut self, step: f64, spacing: f64, near: &impl Fn([f64; D]) -> Closest<D>) {
+    fn advance(&mut self, step: f64, near: &impl Fn([f64; D]) -> Closest<D>) {
+        let unit = self.local.unit;
         let way = step * point::norm(self.velocity);
         if way > FARTHEST {
             self.velocity = point::scale(self.velocity, FARTHEST / way);
         }
-        self.point = point::add_scaled(self.point, step * spacing, self.velocity);
-        if point::distance(self.point, self.put) > self.leash * spacing {
+        self.point = point::add_scaled(self.point, step * unit, self.velocity);
+        if point::distance(self.point, self.put) > self.leash * unit {
             let hit = near(self.point);
             let flat = point::dot(self.normal, hit.normal) > FLAT;
             self.leash = if flat { LEASH } else { SHORT_LEASH };
@@ -145,6 +149,8 @@ struct Pushes<const D: usize> {
     window: Option<Domain<D>>,
     held: usize,
     spacing: f64,
+    /// How far each looks, where that differs.
+    reaches: Vec<f64>,
     points: Vec<[f64; D]>,
     /// In the list's order.
     slots: Vec<Spot<D>>,
@@ -156,9 +162,17 @@ impl<const D: usize> Pushes<D> {
     fn new(movers: &[Mover<D>], held: usize, spacing: f64, window: Option<&Domain<D>>) -> Self {
         let points: Vec<[f64; D]> = movers.iter().map(|mover| mover.point).collect();
         let domain = around(&points, window);
-        let widest = greatest(movers.iter().map(|mover| mover.local));
+        let locals = || movers.iter().map(|mover| mover.local);
+        let widest = greatest(locals());
+        let mut reaches = Vec::new();
+        let mut skin = SKIN * spacing;
+        if have_units(locals()) {
+            reaches.extend(locals().map(|local| REACH * greatest([local])));
+            skin = SKIN / REACH;
+        }
         Self {
-            list: CellList::new(&domain, REACH * widest).with_skin(0.3 * spacing),
+            list: CellList::new(&domain, REACH * widest).with_skin(skin),
+            reaches,
             window: window.copied(),
             held,
             spacing,
@@ -174,7 +188,11 @@ impl<const D: usize> Pushes<D> {
         for (p, mover) in self.points.iter_mut().zip(movers) {
             *p = mover.point;
         }
-        self.list.update(&self.points);
+        if self.reaches.is_empty() {
+            self.list.update(&self.points);
+        } else {
+            self.list.update_each(&self.points, &self.reaches, |_| true);
+        }
         let order = self.list.target_particles();
         self.slots.clear();
         self.slots.extend(self.list.sources().map(|(i, shift)| {
@@ -201,7 +219,9 @@ impl<const D: usize> Pushes<D> {
                             }
                         }
                     }
-                    *out = point::reject(sum, slots[slot].1);
+                    // Who pushes the harder for wider gaps is as much harder to move.
+                    let ease = (spacing / slots[slot].2.unit).powi(D as i32 - 2);
+                    *out = point::scale(point::reject(sum, slots[slot].1), ease);
                 }
             });
         for (&push, &i) in self.by_slot.iter().zip(order) {

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 use sphpack_neighbors::{Bounds, CellList, Domain, point};
 
 use super::candidates::Candidates;
-use super::local::{Local, Spot, apart, greatest};
+use super::local::{Local, Spot, apart, greatest, have_units};
 use super::ranked::Ranked;
 use crate::surface::Closest;
 
@@ -102,7 +102,14 @@ fn neighbors<const D: usize>(spots: &[Spot<D>], window: Option<&Domain<D>>) -> V
     let points: Vec<[f64; D]> = spots.iter().map(|spot| spot.0).collect();
     let reach = REACH * greatest(spots.iter().map(|spot| spot.2));
     let mut list = CellList::new(&around(&points, window), reach);
-    list.update(&points);
+    if have_units(spots.iter().map(|spot| spot.2)) {
+        let reaches: Vec<f64> = (spots.iter())
+            .map(|spot| REACH * greatest([spot.2]))
+            .collect();
+        list.update_each(&points, &reaches, |_| true);
+    } else {
+        list.update(&points);
+    }
     let particle: Vec<u32> = list.sources().map(|(i, _)| i as u32).collect();
     let mut by_slot: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
     list.blocks().for_each(&mut by_slot, |block, out| {

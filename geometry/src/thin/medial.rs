@@ -113,7 +113,10 @@ fn start<const D: usize>(
     let mut locals = vec![Local::even(spacing); held.len()];
     locals.extend(places.iter().map(|place| {
         let density = (place.thickness / spacing).max(0.05);
-        Local::even(WIDE * spacing * density.powf(-root))
+        Local {
+            unit: spacing,
+            ..Local::even(WIDE * spacing * density.powf(-root))
+        }
     }));
     let kept = keep_evenest(&Candidates::of(&hits), &held, count, &locals, window);
     kept.into_iter().map(|i| places[i].point).collect()

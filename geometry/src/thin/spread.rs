@@ -29,6 +29,7 @@ pub(super) fn over<const D: usize>(
         Local {
             spacing: shares.spacing * density.max(LEAST_DENSITY).powf(-root),
             across: shares.spacing,
+            unit: shares.spacing,
         }
     };
     let below = |place: &Place<D>| Closest {

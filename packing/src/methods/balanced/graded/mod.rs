@@ -247,13 +247,32 @@ fn place<const D: usize>(
             }
         })
         .collect();
+    // The spacings of every part's surface particles.
+    let along_each: Vec<Vec<f64>> = (samples.iter().zip(along).zip(&problem.bodies))
+        .map(|((points, along), body)| {
+            (points.iter())
+                .map(|point| {
+                    if along.is_uniform {
+                        return along.mean;
+                    }
+                    let on_body = body.surface.closest(point.point);
+                    problem.resolution.at(on_body.point).value
+                })
+                .collect()
+        })
+        .collect();
+    let volume_of = |sizes: &[f64]| sizes.iter().map(|s| s.powi(D as i32)).sum::<f64>();
     let at = |place: [f64; D]| Some(pocket[cells.at(problem.domain.wrap(place))] as usize);
     let within = Within { pockets, at: &at };
     let held: Vec<Held<'_, D>> = (problem.bodies.iter().zip(surfaces).enumerate())
         .map(|(part, (body, surface))| Held {
             body,
             spacing: spacings[part],
-            volume_per_point: spacings[part].powi(D as i32),
+            // Where spacings differ much the mean of volumes is far from the volume of the mean.
+            volume_per_point: match &along_each[part][..] {
+                each if along[part].is_uniform || each.is_empty() => spacings[part].powi(D as i32),
+                each => volume_of(each) / each.len() as f64,
+            },
             layer: (!along[part].is_uniform)
                 .then(|| (room[part] - cells.volume_of(part)).max(0.0) / body.inner_share()),
             surface: surface.surface.as_ref(),
@@ -292,20 +311,10 @@ fn place<const D: usize>(
             regions.of.push(region as u32);
         }
     }
-    for ((points, &volume), part) in samples.iter().zip(&shares.surface_volume).zip(0_u16..) {
+    let surfaces = samples.iter().zip(&shares.surface_volume).zip(along_each);
+    for (((points, &volume), sizes), part) in surfaces.zip(0_u16..) {
         let along = along[usize::from(part)];
-        let own = |point: &Closest<D>| {
-            if along.is_uniform {
-                along.mean
-            } else {
-                let on_body = problem.bodies[usize::from(part)]
-                    .surface
-                    .closest(point.point);
-                problem.resolution.at(on_body.point).value
-            }
-        };
-        let sizes: Vec<f64> = points.iter().map(own).collect();
-        let all: f64 = sizes.iter().map(|s| s.powi(D as i32)).sum();
+        let all = volume_of(&sizes);
         for (point, size) in points.iter().zip(sizes) {
             let kind = match point.feature {
                 Feature::Smooth => Kind::Boundary,

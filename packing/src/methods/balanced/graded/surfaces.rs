@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use sphpack_geometry::{
     Closest, Feature, Features, GeometryError, InsetError, Surface, sample_weighted,
 };
@@ -10,8 +11,14 @@ use sphpack_neighbors::{Bounds, Domain, KdTree, point};
 use crate::problem::Body;
 use crate::resolution::Resolution;
 
-/// Places of a surface that are asked for the field's spacing there.
-const ASKED: usize = 512;
+/// Places of a surface that are asked for the field's spacing there: at first, by how much more where that does not tell the mean of
+/// s^−(D−1) to [`MEAN`], and at most. Where a body is fine in spots, few places are in them.
+const ASKED: usize = 4096;
+const MORE: usize = 8;
+const MOST_ASKED: usize = 1 << 15;
+
+/// The standard error of that mean, as a part of it.
+const MEAN: f64 = 5e-3;
 
 /// Spacings along a surface that differ by no more than this part are one.
 const UNIFORM: f64 = 0.01;
@@ -34,16 +41,30 @@ impl Along {
         surface: &dyn Surface<D>,
         fallback: f64,
     ) -> Self {
-        let spacings: Vec<f64> = (surface.scatter(ASKED).iter())
-            .map(|hit| resolution.at(hit.point).value)
-            .collect();
+        let power = D as i32 - 1;
+        let mut asked = ASKED;
+        let mut spacings: Vec<f64>;
+        loop {
+            spacings = (surface.scatter(asked).par_iter().with_min_len(64))
+                .map(|hit| resolution.at(hit.point).value)
+                .collect();
+            let count = spacings.len() as f64;
+            let mean = spacings.iter().map(|s| s.powi(-power)).sum::<f64>() / count;
+            let off = spacings
+                .iter()
+                .map(|s| (s.powi(-power) / mean - 1.0).powi(2));
+            let error = off.sum::<f64>().sqrt() / count;
+            asked *= MORE;
+            if error.is_nan() || error <= MEAN || asked > MOST_ASKED {
+                break;
+            }
+        }
         if spacings.is_empty() {
             return Self {
                 mean: fallback,
                 is_uniform: true,
             };
         }
-        let power = D as i32 - 1;
         let sum: f64 = spacings.iter().map(|s| s.powi(-power)).sum();
         let mean = (sum / spacings.len() as f64).powf(-1.0 / f64::from(power));
         let off = (spacings.iter()).fold(0.0, |most: f64, s| most.max((s / mean - 1.0).abs()));
@@ -63,7 +84,8 @@ pub(super) struct FollowingInset<const D: usize> {
     body: Arc<dyn Surface<D>>,
     resolution: Resolution<D>,
     inset_over_spacing: f64,
-    mean_depth: f64,
+    /// [`Along::mean`].
+    mean: f64,
 }
 
 impl<const D: usize> FollowingInset<D> {
@@ -72,18 +94,57 @@ impl<const D: usize> FollowingInset<D> {
             body: body.surface.clone(),
             resolution: resolution.clone(),
             inset_over_spacing: body.inset_over_spacing,
-            mean_depth: body.inset_over_spacing * along.mean,
+            mean: along.mean,
         }
+    }
+
+    fn mean_depth(&self) -> f64 {
+        self.inset_over_spacing * self.mean
     }
 
     fn depth(&self, on_body: [f64; D]) -> f64 {
         self.inset_over_spacing * self.resolution.at(on_body).value
     }
 
-    fn within(&self, hit: Closest<D>) -> Closest<D> {
+    /// The depth below a place of the body's surface, or where the body is thinner than twice that, half of its thickness; `out` is the
+    /// direction outward.
+    fn depth_at(&self, hit: &Closest<D>, out: [f64; D]) -> f64 {
         let depth = self.depth(hit.point);
+        let height = |depth: f64| {
+            let below = point::add_scaled(hit.point, -depth, out);
+            -self.body.closest(below).distance
+        };
+        if depth == 0.0 || height(depth) > NEAREST * depth {
+            return depth;
+        }
+        // Whether the place is still the nearest so deep below it; at an edge between facets the normal is their mean, and
+        // the way down is longer than the depth all along.
+        let slant = height(SHALLOW * depth) / (SHALLOW * depth);
+        let is_nearest = |depth: f64| height(depth) > NEAREST * slant * depth;
+        if is_nearest(depth) {
+            return depth;
+        }
+        let (mut low, mut high) = (0.0, depth);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if is_nearest(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+
+    /// What is nearest to a place of which the body's surface is nearest so.
+    fn within(&self, place: [f64; D], hit: Closest<D>) -> Closest<D> {
+        // The way from the one to the other: normals of outlines and meshes are means, and what is found along them is nearest
+        // to another place of the surface.
+        let away = point::sub(place, hit.point);
+        let out = point::unit(point::scale(away, hit.distance.signum())).unwrap_or(hit.normal);
+        let depth = self.depth_at(&hit, out);
         Closest {
-            point: point::add_scaled(hit.point, -depth, hit.normal),
+            point: point::add_scaled(hit.point, -depth, out),
             distance: hit.distance + depth,
             ..hit
         }
@@ -94,13 +155,10 @@ impl<const D: usize> FollowingInset<D> {
     pub(super) fn sample(&self) -> Result<Vec<Closest<D>>, GeometryError> {
         let power = D as i32 - 1;
         let spacing = |hit: &Closest<D>| self.resolution.at(hit.point).value;
-        let hits = self.body.scatter(ASKED);
-        let density: f64 = hits.iter().map(|hit| spacing(hit).powi(-power)).sum();
-        let mean = density / hits.len().max(1) as f64;
         // The inset of a convex body is smaller: by as much as that of its mean depth.
-        let inset = self.body.inset(self.mean_depth);
+        let inset = self.body.inset(self.mean_depth());
         let measure = inset.map_or(self.body.measure(), |inset| inset.measure());
-        let count = (measure * mean).round().max(1.0) as usize;
+        let count = (measure * self.mean.powi(-power)).round().max(1.0) as usize;
         let weight = |hit: &Closest<D>| spacing(hit).powi(-power);
         let on_body = sample_weighted(self.body.as_ref(), count, &weight)?;
         let (mut points, mut spacings): (Vec<Closest<D>>, Vec<f64>) = (Vec::new(), Vec::new());
@@ -133,10 +191,10 @@ impl<const D: usize> FollowingInset<D> {
         }
         let at = |way: f64| point::add_scaled(hit.point, -way, hit.normal);
         if hit.feature == Feature::Smooth {
+            let inner = self.closest(at(self.depth_at(&hit, hit.normal)));
             return Closest {
-                point: at(depth),
                 distance: 0.0,
-                ..hit
+                ..inner
             };
         }
         // From a corner the way is longer than the depth.
@@ -163,18 +221,24 @@ const APART: f64 = 0.6;
 /// The corner of an inset is no farther from the body's than so many depths.
 const MITRE: f64 = 4.0;
 
-/// From a way of depths to one of their 10⁻⁶.
-const HALVINGS: usize = 22;
+/// A place is the nearest where the surface is this part of the way down away, or more.
+const NEAREST: f64 = 1.0 - 1e-9;
+
+/// So little of a depth is less than half of any thickness that counts.
+const SHALLOW: f64 = 1e-3;
+
+/// From a way of depths to one of their 10⁻¹⁰.
+const HALVINGS: usize = 36;
 
 impl<const D: usize> Surface<D> for FollowingInset<D> {
     fn closest(&self, p: [f64; D]) -> Closest<D> {
-        self.within(self.body.closest(p))
+        self.within(p, self.body.closest(p))
     }
 
     fn closest_within(&self, p: [f64; D], radius: f64) -> Option<Closest<D>> {
         let deepest = self.inset_over_spacing * self.resolution.range()[1];
         let hit = self.body.closest_within(p, radius + deepest)?;
-        let hit = self.within(hit);
+        let hit = self.within(p, hit);
         (hit.distance.abs() <= radius).then_some(hit)
     }
 
@@ -187,7 +251,7 @@ impl<const D: usize> Surface<D> for FollowingInset<D> {
     }
 
     fn volume(&self) -> f64 {
-        (self.body.volume() - self.body.measure() * self.mean_depth).max(0.0)
+        (self.body.volume() - self.body.measure() * self.mean_depth()).max(0.0)
     }
 
     fn bounds(&self) -> Bounds<D> {
