@@ -84,6 +84,19 @@ fn extension(path: &Path) -> String {
         .map_or_else(String::new, |e| e.to_string_lossy().into_owned())
 }
 
+/// The same error about a body's file, saying which body of which scene wants that file.
+pub(crate) fn of_body(error: Error, scene: &Path, body: &str) -> Error {
+    match error {
+        // A body that was named on the command line needs no further introduction.
+        Error::Input { path, at, message } if path != scene => Error::Input {
+            path,
+            at,
+            message: format!("{message} (it is body \"{body}\" of {})", scene.display()),
+        },
+        other => other,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -23,7 +23,7 @@ const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 pub(crate) struct Fingerprint {
     /// The scene as JSON, defaults filled in, without what is only written.
     scene: String,
-    /// Name, size and checksum of every body's file.
+    /// Name, size and checksum of every file that it names.
     files: Vec<(String, u64, u32)>,
 }
 
@@ -31,14 +31,13 @@ impl Fingerprint {
     /// Of a scene and its files as they are now, which are read once.
     ///
     /// # Errors
-    /// [`Error::Input`] where a body's file cannot be read.
+    /// [`Error::Input`] where one cannot be read.
     pub(crate) fn of(scene: &Scene) -> Result<Self, Error> {
         let mut plain = scene.clone();
         plain.output = Default::default();
         let text = serde_json::to_string(&plain)
             .map_err(|e| Error::System(format!("the scene cannot be put into words: {e}")))?;
-        let named = scene.body.iter().filter_map(|body| body.shape.file());
-        let files = named.map(|file| {
+        let files = scene.files().map(|file| {
             let (size, sum) = checksum(&scene.resolve(file))?;
             Ok((file.to_string_lossy().into_owned(), size, sum))
         });

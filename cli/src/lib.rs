@@ -99,6 +99,7 @@ mod run;
 pub mod scene;
 mod shapes;
 mod solution;
+mod spacings;
 mod surroundings;
 mod table;
 mod units;

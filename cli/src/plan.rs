@@ -2,17 +2,16 @@
 
 use std::time::Instant;
 
-use sphpack_geometry::{GeometryError, MeshError, OutlineError, Similarity};
+use sphpack_geometry::{GeometryError, MeshError, OutlineError};
 use sphpack_neighbors::{Bounds, Domain, point, words};
-use sphpack_packing::{
-    Body, Estimate, FrozenLayout, Kind, Moves, PackingError, Problem, Refinement,
-};
+use sphpack_packing::{Body, Estimate, FrozenLayout, Kind, Moves, PackingError, Problem};
 
 use crate::Error;
-use crate::body_file::{BodyFile, ReadBody};
+use crate::body_file::{BodyFile, ReadBody, of_body};
 use crate::dimension::{Built, Dimension, Space, in_dimension};
 use crate::error::cured;
-use crate::scene::{Fault, Frozen, RefinementSpec, Role, Scene, Surroundings};
+use crate::scene::{Fault, Frozen, Role, Scene, Surroundings};
+use crate::spacings;
 use crate::{beyond, methods, overlap, precedence, roles, units};
 
 pub(crate) use crate::memory::available_bytes;
@@ -128,8 +127,8 @@ pub(crate) fn opened(scene: &Scene) -> Result<Opened, Error> {
         let (dimension, what) = match body.shape.file() {
             Some(file) => {
                 let path = scene.resolve(file);
-                let read =
-                    BodyFile::read(&path).map_err(|error| of_body(error, scene, &body.name))?;
+                let read = BodyFile::read(&path)
+                    .map_err(|error| of_body(error, &scene.path, &body.name))?;
                 let format = read.format;
                 files.push(Some(read));
                 let what = format.description();
@@ -183,22 +182,6 @@ pub(crate) fn opened(scene: &Scene) -> Result<Opened, Error> {
             periodic.len()
         ))),
         _ => Ok(Opened { dimension, files }),
-    }
-}
-
-/// The same error about a body's file, saying which body of which scene wants that file.
-fn of_body(error: Error, scene: &Scene, body: &str) -> Error {
-    match error {
-        // A body that was named on the command line needs no further introduction.
-        Error::Input { path, at, message } if path != scene.path => Error::Input {
-            path,
-            at,
-            message: format!(
-                "{message} (it is body \"{body}\" of {})",
-                scene.path.display()
-            ),
-        },
-        other => other,
     }
 }
 
@@ -311,7 +294,7 @@ where
     };
     let mut problem = bodies.into_iter().fold(empty, Problem::placed_body);
     if let Some(refinement) = &scene.refinement {
-        problem.resolution = graded::<D>(scene, refinement, &problem)?.into();
+        problem.resolution = spacings::field::<D>(scene, refinement, &problem)?;
         problem.judging_reach *= problem.spacing() / scene.spacing;
     }
     let problem = problem;
@@ -393,40 +376,6 @@ where
         },
         estimate,
     ))
-}
-
-/// The field of spacings around the problem's bodies and the scene's regions.
-fn graded<const D: usize>(
-    scene: &Scene,
-    refinement: &RefinementSpec,
-    problem: &Problem<D>,
-) -> Result<Refinement<D>, Error>
-where
-    Space<D>: Dimension<D>,
-{
-    let mut field = Refinement::new(refinement.coarsest, refinement.growth);
-    for (number, body) in problem.bodies.iter().enumerate() {
-        field = field.around(body.surface.clone(), scene.spacing_of(number));
-    }
-    for (number, region) in refinement.region.iter().enumerate() {
-        let name = format!("refinement.region {}", number + 1);
-        let file = match region.shape.file() {
-            Some(file) => {
-                let read = BodyFile::read(&scene.resolve(file));
-                Some(read.map_err(|error| of_body(error, scene, &name))?)
-            }
-            None => None,
-        };
-        let built = Space::<D>::build(&region.shape, file.as_ref(), &Similarity::identity());
-        let surface = built.map_err(|error| Error::Body {
-            path: scene.path.clone(),
-            body: name,
-            error,
-        })?;
-        let surface = problem.placed(surface.surface);
-        field = field.within(surface, scene.no_finer(region.spacing));
-    }
-    Ok(field)
 }
 
 /// A body so many times larger than the box is a slip: what looks along its surface would never come to an end.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sphpack_packing::{
-    DensityQuality, HistoryPoint, MassCorrection, ResidualQuality, SurfaceQuality,
+    DensityQuality, HistoryPoint, MassCorrection, ResidualQuality, SurfaceQuality, SymmetricDensity,
 };
 
 use crate::audit::Audit;
@@ -122,6 +122,10 @@ pub struct ResolutionReport {
     pub growth_max: f64,
     /// How many times as many particles the finest spacing alone would take.
     pub times_fewer: f64,
+    /// By whose h density and residual are judged: "gather", every particle's own.
+    pub gamma: &'static str,
+    /// Density by the mean h of every pair, and what of it the field of spacings itself causes.
+    pub symmetric: Option<SymmetricDensity>,
 }
 
 /// A body's content.

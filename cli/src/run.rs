@@ -296,6 +296,8 @@ fn resolution<const D: usize>(solution: &Solution<D>) -> Option<ResolutionReport
         growth_mean: 1.0 + growth.iter().sum::<f64>() / growth.len().max(1) as f64,
         growth_max: 1.0 + growth.iter().copied().fold(0.0, f64::max),
         times_fewer: uniform / inner.len() as f64,
+        gamma: "gather",
+        symmetric: packed.symmetric_density(),
     })
 }
 

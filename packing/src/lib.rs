@@ -7,8 +7,10 @@
 
 pub mod closest_pair;
 pub mod confinement;
+pub mod curvature;
 pub mod depths;
 pub mod estimate;
+pub mod finest;
 mod finish;
 pub mod forces;
 pub mod lattice;
@@ -27,10 +29,13 @@ pub mod quality;
 pub mod refinement;
 pub mod resolution;
 pub mod run_log;
+pub mod sampled_field;
 pub mod seeding;
 pub mod sizes;
 mod slabs;
+pub mod spacing_function;
 mod state;
+pub mod symmetric;
 
 #[cfg(all(test, feature = "published"))]
 mod resumed;
@@ -39,8 +44,10 @@ mod tests;
 
 pub use closest_pair::ClosestPair;
 pub use confinement::Confinement;
+pub use curvature::Curved;
 pub use depths::Depths;
 pub use estimate::{Estimate, Work};
+pub use finest::Finest;
 pub use lattice::{Lattice, UnknownLattice};
 pub use masses::{MassCorrection, correct_masses};
 #[cfg(feature = "published")]
@@ -57,5 +64,8 @@ pub use quality::{DensityQuality, Fields, Quality, ResidualQuality, SurfaceQuali
 pub use refinement::{Graded, Refinement};
 pub use resolution::{Resolution, Spacing, SpacingField, Uniform};
 pub use run_log::RunLog;
+pub use sampled_field::{FieldError, SampledField};
 pub use sizes::Sizes;
+pub use spacing_function::SpacingFunction;
 pub use state::Damaged;
+pub use symmetric::SymmetricDensity;

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use sphpack_geometry::Surface;
-use sphpack_neighbors::point;
+use sphpack_neighbors::{Bounds, Domain, KdTree, point};
 
+use crate::curvature::{self, Curved};
 use crate::resolution::{Resolution, Spacing, SpacingField};
 
 /// A field of spacings: each source has its own, at a body's surface or throughout a region, and the field grows from there with
@@ -71,15 +72,86 @@ impl<const D: usize> From<Graded> for Resolution<D> {
 /// Something fine.
 #[derive(Debug, Clone)]
 struct Source<const D: usize> {
-    surface: Arc<dyn Surface<D>>,
+    place: Place<D>,
+    ramp: Ramp,
+}
+
+/// How spacings grow from a source.
+#[derive(Debug, Clone, Copy)]
+struct Ramp {
+    /// At the source, scene units.
     spacing: f64,
-    /// Whether the whole inside has the spacing, not only the surface.
-    is_region: bool,
+    /// Half axis of the hyperbola, scene units.
+    half: f64,
+    /// ∣∇s∣ far away.
+    slope: f64,
+}
+
+impl Ramp {
+    /// The value at a distance, and its slope.
+    fn at(&self, distance: f64) -> [f64; 2] {
+        let along = distance.hypot(self.half);
+        [
+            self.spacing + self.slope * (along - self.half),
+            self.slope * distance / along,
+        ]
+    }
+
+    /// The distance at which it has come to `value`.
+    fn distance_of(&self, value: f64) -> f64 {
+        let along = self.half + (value - self.spacing).max(0.0) / self.slope;
+        (along * along - self.half * self.half).max(0.0).sqrt()
+    }
+}
+
+/// Where something is.
+#[derive(Debug, Clone)]
+enum Place<const D: usize> {
+    /// On a surface.
+    Around(Arc<dyn Surface<D>>),
+    /// Throughout its inside.
+    Within(Arc<dyn Surface<D>>),
+    /// At points.
+    At(Arc<Points<D>>),
+}
+
+#[derive(Debug)]
+struct Points<const D: usize> {
+    places: Vec<[f64; D]>,
+    bounds: Bounds<D>,
+    tree: KdTree<D>,
+}
+
+impl<const D: usize> Place<D> {
+    /// The nearest point of it within `reach`, and how far away it is; none where there is none, and zero where the place is
+    /// in a region.
+    fn nearest(&self, place: [f64; D], reach: f64) -> Option<([f64; D], f64)> {
+        match self {
+            Self::Around(surface) => {
+                let hit = surface.closest_within(place, reach)?;
+                Some((hit.point, hit.distance.abs()))
+            }
+            Self::Within(surface) => match surface.closest_within(place, reach) {
+                Some(hit) => Some((hit.point, hit.distance.max(0.0))),
+                None => surface.inside(place).then_some((place, 0.0)),
+            },
+            Self::At(points) => {
+                if points.bounds.distance_squared(place) > reach * reach {
+                    return None;
+                }
+                let found = points.tree.nearest(place)?;
+                (found.distance <= reach).then(|| (points.places[found.index], found.distance))
+            }
+        }
+    }
 }
 
 /// The ramp begins as a hyperbola with this many spacings as its half axis: the growth has come to 71 % of its own after so
 /// many spacings.
 const ROUNDED: f64 = 3.0;
+
+/// The same around points, from which spacings grow in all directions.
+const ROUNDED_AT_POINTS: f64 = 8.0;
 
 /// The ramp ends on a parabola over so much of the coarsest spacing below and above it.
 const BLENDED: f64 = 0.3;
@@ -98,49 +170,64 @@ impl<const D: usize> Refinement<D> {
     /// This spacing (scene units; no more than the coarsest) at the surface of a body.
     #[must_use]
     pub fn around(self, surface: Arc<dyn Surface<D>>, spacing: f64) -> Self {
-        self.with(surface, spacing, false)
+        self.with(Place::Around(surface), spacing)
     }
 
     /// This spacing (scene units; no more than the coarsest) throughout the inside of a surface.
     #[must_use]
     pub fn within(self, surface: Arc<dyn Surface<D>>, spacing: f64) -> Self {
-        self.with(surface, spacing, true)
+        self.with(Place::Within(surface), spacing)
     }
 
-    fn with(mut self, surface: Arc<dyn Surface<D>>, spacing: f64, is_region: bool) -> Self {
-        self.sources.push(Source {
-            surface,
-            spacing: spacing.min(self.coarsest),
-            is_region,
-        });
-        // The finest first: others are looked for less far then.
-        self.sources.sort_by(|a, b| a.spacing.total_cmp(&b.spacing));
+    /// So many particles per radius of curvature along the surface of a body in `domain`, where that is finer than the usual
+    /// spacing. Corners and sharp edges have no radius, and ask for nothing.
+    #[must_use]
+    pub fn curved(mut self, surface: &dyn Surface<D>, domain: &Domain<D>, curved: Curved) -> Self {
+        for spots in curvature::spots(surface, curved) {
+            // Images across periodic sides, as far as they matter.
+            let reach = self.ramp(spots.spacing, true).distance_of(self.coarsest);
+            let places: Vec<[f64; D]> = (spots.points.iter())
+                .flat_map(|&point| domain.images(domain.wrap(point), reach))
+                .collect();
+            if let Ok(tree) = KdTree::new(&places) {
+                let bounds = Bounds::of(&places);
+                let points = Arc::new(Points {
+                    places,
+                    bounds,
+                    tree,
+                });
+                self = self.with(Place::At(points), spots.spacing);
+            }
+        }
         self
     }
 
-    /// How fast spacings grow at most: ∣∇s∣.
-    fn slope(&self) -> f64 {
-        self.growth - 1.0
+    fn with(mut self, place: Place<D>, spacing: f64) -> Self {
+        let ramp = self.ramp(spacing, matches!(place, Place::At(_)));
+        self.sources.push(Source { place, ramp });
+        // The finest first: others are looked for less far then.
+        self.sources
+            .sort_by(|a, b| a.ramp.spacing.total_cmp(&b.ramp.spacing));
+        self
+    }
+
+    fn ramp(&self, spacing: f64, is_at_points: bool) -> Ramp {
+        let spacing = spacing.min(self.coarsest);
+        let rounded = if is_at_points {
+            ROUNDED_AT_POINTS
+        } else {
+            ROUNDED
+        };
+        Ramp {
+            spacing,
+            half: rounded * spacing,
+            slope: self.growth - 1.0,
+        }
     }
 
     /// The width of the parabola between a source and the coarsest.
     fn blend(&self, spacing: f64) -> f64 {
         (BLENDED * self.coarsest).min(self.coarsest - spacing)
-    }
-
-    /// The ramp of a source at a distance, and its slope.
-    fn ramp(&self, spacing: f64, distance: f64) -> [f64; 2] {
-        let half = ROUNDED * spacing;
-        let along = distance.hypot(half);
-        let slope = self.slope();
-        [spacing + slope * (along - half), slope * distance / along]
-    }
-
-    /// The distance at which a source's ramp has come to `value`.
-    fn distance_of(&self, spacing: f64, value: f64) -> f64 {
-        let half = ROUNDED * spacing;
-        let along = half + (value - spacing).max(0.0) / self.slope();
-        (along * along - half * half).max(0.0).sqrt()
     }
 
     /// A ramp's value and slope, ended at the coarsest.
@@ -173,29 +260,24 @@ impl<const D: usize> SpacingField<D> for Refinement<D> {
             gradient: [0.0; D],
         };
         for source in &self.sources {
+            let Source { place: of, ramp } = source;
             // Where its ramp, ended, would be no finer than what is known.
-            let end = self.coarsest + self.blend(source.spacing);
-            let matters = if best.value < self.coarsest - self.blend(source.spacing) {
+            let blend = self.blend(ramp.spacing);
+            let matters = if best.value < self.coarsest - blend {
                 best.value
             } else {
-                end
+                self.coarsest + blend
             };
-            let reach = self.distance_of(source.spacing, matters);
-            let hit = source.surface.closest_within(place, reach);
-            let is_within = source.is_region
-                && hit.map_or_else(|| source.surface.inside(place), |hit| hit.distance <= 0.0);
-            let (value, gradient) = if is_within {
-                (source.spacing, [0.0; D])
-            } else if let Some(hit) = hit {
-                let ramp = self.ramp(source.spacing, hit.distance.abs());
-                let [value, slope] = self.ended(source.spacing, ramp);
-                let away = point::unit(point::sub(place, hit.point)).unwrap_or([0.0; D]);
-                (value, point::scale(away, slope))
-            } else {
+            let Some((nearest, distance)) = of.nearest(place, ramp.distance_of(matters)) else {
                 continue;
             };
+            let [value, slope] = self.ended(ramp.spacing, ramp.at(distance));
             if value < best.value {
-                best = Spacing { value, gradient };
+                let away = point::unit(point::sub(place, nearest)).unwrap_or([0.0; D]);
+                best = Spacing {
+                    value,
+                    gradient: point::scale(away, slope),
+                };
             }
         }
         best
@@ -207,8 +289,9 @@ impl<const D: usize> SpacingField<D> for Refinement<D> {
     }
 
     fn range(&self) -> [f64; 2] {
-        let finest =
-            (self.sources.iter()).fold(self.coarsest, |least, source| least.min(source.spacing));
+        let finest = (self.sources.iter()).fold(self.coarsest, |least, source| {
+            least.min(source.ramp.spacing)
+        });
         [finest, self.coarsest]
     }
 }

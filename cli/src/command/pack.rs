@@ -249,13 +249,7 @@ impl Files {
         };
         if !arguments.dry_run {
             let mut inputs = vec![arguments.input.clone()];
-            inputs.extend(
-                scene
-                    .body
-                    .iter()
-                    .filter_map(|body| body.shape.file())
-                    .map(|file| scene.resolve(file)),
-            );
+            inputs.extend(scene.files().map(|file| scene.resolve(file)));
             outputs::check(&files.paths(), &inputs, arguments.force)?;
             if let Some(path) = &arguments.checkpoint {
                 outputs::check(&[path], &inputs, true)?;

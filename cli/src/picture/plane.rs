@@ -78,7 +78,11 @@ pub(super) fn title(subject: &Subject<'_>) -> String {
     };
     let coarsest = (subject.table.spacing.iter()).fold(subject.spacing, |most, &s| most.max(s));
     let spacing = if coarsest > subject.spacing {
-        format!("{} … {coarsest:.3}", subject.spacing)
+        format!(
+            "{} … {}",
+            three_digits(subject.spacing),
+            three_digits(coarsest)
+        )
     } else {
         subject.spacing.to_string()
     };
@@ -87,6 +91,12 @@ pub(super) fn title(subject: &Subject<'_>) -> String {
         grouped(inside),
         100.0 * subject.table.linf()
     )
+}
+
+/// Three digits that count, without zeros at the end.
+fn three_digits(value: f64) -> f64 {
+    let unit = 10_f64.powf(2.0 - value.log10().floor());
+    (value * unit).round() / unit
 }
 
 /// Draws a plane scene.

@@ -138,6 +138,9 @@ pub struct BodySpec {
     /// With `refinement`, the spacing at its surface, scene units; the scene's where left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
+    /// With `refinement`, how many particles there are per radius of curvature, down to its `finest`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curvature: Option<f64>,
 }
 
 /// A rotation in space.
@@ -425,6 +428,7 @@ impl Scene {
                 surface: Inset::default(),
                 thin: Thin::default(),
                 spacing: None,
+                curvature: None,
             }],
             name,
             refinement: None,

@@ -1,11 +1,13 @@
 //! How fine the particles are where: the scene's table `refinement`.
 
+use std::path::{Path, PathBuf};
+
 use serde::{Deserialize, Serialize};
 use sphpack_geometry::Thin;
 
 use super::check_body::check_shape;
 use super::fault::{Checked, Key, fault, positive};
-use super::{Finish, Frozen, Masses, Method, Scene, Shape};
+use super::{BodySpec, Finish, Frozen, Masses, Method, Scene, Shape};
 
 /// Particles that grow with the distance from surfaces and regions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -19,6 +21,9 @@ pub struct RefinementSpec {
     /// The ratio of neighbouring particles' spacings, at most.
     #[serde(default = "usual_growth")]
     pub growth: f64,
+    /// A file with spacings at the nodes of a grid: columns x, y, in space z, and spacing (scene units).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub field: Option<PathBuf>,
     /// Regions with a spacing of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub region: Vec<RegionSpec>,
@@ -42,10 +47,25 @@ fn usual_growth() -> f64 {
 /// Evaluations that particles of many sizes take: each stage ends after so many.
 const EVALUATIONS: f64 = 110.0;
 
+/// What `curvature` may be.
+const PER_RADIUS: [f64; 2] = [1.0, 1000.0];
+
 /// What `growth` may be.
 const GROWTHS: [f64; 2] = [1.02, 1.3];
 
 impl Scene {
+    /// The files that it names, as it names them: of bodies, regions and spacings.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        let bodies = self.body.iter().filter_map(|body| body.shape.file());
+        let refinement = self.refinement.iter();
+        let more = refinement.flat_map(|refinement| {
+            let regions = refinement.region.iter();
+            let regions = regions.filter_map(|region| region.shape.file());
+            regions.chain(refinement.field.as_deref())
+        });
+        bodies.chain(more)
+    }
+
     /// The spacing at the surface of a body, scene units.
     pub(crate) fn spacing_of(&self, body: usize) -> f64 {
         self.no_finer(self.body[body].spacing.unwrap_or(self.spacing))
@@ -70,11 +90,17 @@ impl Scene {
 
     pub(super) fn check_refinement(&self) -> Checked {
         let Some(refinement) = &self.refinement else {
-            return match self.body.iter().position(|body| body.spacing.is_some()) {
-                Some(index) => fault(
-                    &[Key::Name("body"), Key::Index(index), Key::Name("spacing")],
+            let own = |body: &BodySpec| match (body.spacing, body.curvature) {
+                (Some(_), _) => Some("spacing"),
+                (None, Some(_)) => Some("curvature"),
+                (None, None) => None,
+            };
+            let found = (self.body.iter().enumerate()).find_map(|(k, body)| Some((k, own(body)?)));
+            return match found {
+                Some((index, key)) => fault(
+                    &[Key::Name("body"), Key::Index(index), Key::Name(key)],
                     format!(
-                        "body \"{}\" has a spacing of its own, which needs a table [refinement] with the coarsest, such as coarsest = {}",
+                        "body \"{}\" has a {key} of its own, which needs a table [refinement] with the coarsest, such as coarsest = {}",
                         self.body[index].name, self.spacing
                     ),
                 ),
@@ -144,6 +170,9 @@ impl Scene {
                 let keys = [Key::Name("body"), Key::Index(index), Key::Name("spacing")];
                 finer(&keys, &format!("body \"{}\": spacing", body.name), spacing)?;
             }
+            if let Some(curvature) = body.curvature {
+                self.check_curvature(index, curvature)?;
+            }
             if body.thin == Thin::Watertight {
                 return fault(
                     &[Key::Name("body"), Key::Index(index), Key::Name("thin")],
@@ -155,6 +184,43 @@ impl Scene {
             }
         }
         self.check_graded_packing()
+    }
+
+    /// What a surface's curvature asks for must be a number of particles, and there must be something finer to come to.
+    fn check_curvature(&self, index: usize, curvature: f64) -> Checked {
+        let keys = [Key::Name("body"), Key::Index(index), Key::Name("curvature")];
+        let name = &self.body[index].name;
+        let [least, greatest] = PER_RADIUS;
+        if !(least..=greatest).contains(&curvature) {
+            return fault(
+                &keys,
+                format!(
+                    "body \"{name}\": curvature is {curvature}; it must be between {least} and {greatest} particles per radius of curvature"
+                ),
+            );
+        }
+        let usual = self.spacing_of(index);
+        if self.finest() < usual {
+            return Ok(());
+        }
+        fault(
+            &keys,
+            format!(
+                "body \"{name}\": curvature asks for particles finer than its spacing of {usual}, and nothing says how fine; give refinement.finest, such as finest = {}",
+                0.25 * usual
+            ),
+        )
+    }
+
+    /// The finest spacing that is allowed: the scene's own word, or the least that is named.
+    pub(crate) fn finest(&self) -> f64 {
+        let Some(refinement) = &self.refinement else {
+            return self.spacing;
+        };
+        let bodies = self.body.iter().filter_map(|body| body.spacing);
+        let regions = refinement.region.iter().map(|region| region.spacing);
+        let least = bodies.chain(regions).fold(self.spacing, f64::min);
+        refinement.finest.unwrap_or(least)
     }
 
     /// What particles of many sizes do not have.

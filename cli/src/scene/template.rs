@@ -11,6 +11,7 @@ spacing = 0.1                    # the particle spacing: the square (cube) root 
 # coarsest = 0.4                 # far away
 # finest = 0.01                  # no finer than this, whatever bodies and regions say (no default)
 # growth = 1.08                  # ratio of neighbouring particles' spacings, at most: 1.02 to 1.3
+# field = "spacing.csv"          # spacings at the nodes of a grid, columns x, y (, z) and spacing (no default)
 # region = [{ shape = { box = { min = [1.0, -0.5], max = [2.0, 0.5] } }, spacing = 0.1 }]   # any shapes or files
 
 [domain]                         # the box; two numbers for 2-D, three for 3-D
@@ -39,6 +40,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # surface = "inset"              # boundary particles half a spacing inside ("inset"), on the surface ("exact"),
                                  # or a number: how far inside, in spacings
 # spacing = 0.1                  # with [refinement]: at this body's surface (the scene's)
+# curvature = 12                 # with [refinement]: particles per radius of curvature, down to `finest` (no default)
 # thin = "mass"                  # parts thinner than a spacing: as many particles as their mass asks for, or one per
                                  # spacing^(D-1) whatever they weigh ("watertight")
 

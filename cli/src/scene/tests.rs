@@ -83,6 +83,7 @@ fn the_template_refines() {
         ("# surroundings", "surroundings"),
         ("# thin = ", ""),
         ("# spacing = ", ""),
+        ("# curvature = ", ""),
     ] {
         let text = with(&[&keys[..], &[line]].concat());
         let parsed = Scene::parse(&text, "s.toml");
@@ -163,6 +164,8 @@ fn the_template_packs_and_knows_every_key() {
                 "# finest",
                 "# growth",
                 "# region",
+                "# field",
+                "# curvature",
                 "# spacing",
             ]
             .iter()

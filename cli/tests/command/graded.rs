@@ -164,3 +164,139 @@ fn the_dry_run_tells_how_many() {
     let packed = rows(&text).len() as f64;
     assert!((said / packed - 1.0).abs() < 0.05, "{said} {packed}");
 }
+
+const ELLIPSE: &str = r#"
+spacing = 0.1
+[refinement]
+coarsest = 0.2
+finest = 0.005
+growth = 1.1
+[domain]
+margin = 0.6
+[[body]]
+name = "ellipse"
+curvature = 10
+shape = { ellipse = { center = [0.3, -0.2], semi_axes = [1.0, 0.25] } }
+"#;
+
+/// The spacings of surface particles whose place is as asked.
+fn spacings(text: &str, is_asked: impl Fn([f64; 2]) -> bool) -> Vec<f64> {
+    let number = |row: &std::collections::HashMap<String, String>, name: &str| -> f64 {
+        row[name].parse().expect("a number")
+    };
+    (rows(text).iter())
+        .filter(|row| row["kind"] != "free" && is_asked([number(row, "x"), number(row, "y")]))
+        .map(|row| number(row, "spacing"))
+        .collect()
+}
+
+#[test]
+fn surfaces_are_finer_where_they_bend() {
+    let desk = Desk::new().with("scene.toml", ELLIPSE);
+    desk.succeed(&[
+        "pack",
+        "scene.toml",
+        "-o",
+        "out.csv",
+        "--report",
+        "out.json",
+    ]);
+    let text = String::from_utf8(desk.read("out.csv")).expect("text");
+    let tip = spacings(&text, |p| (p[0] - 0.3).abs() > 0.98);
+    // b²/a is the radius at the tips: ten particles to it.
+    let asked = 0.0625 / 10.0;
+    assert!(tip.len() >= 4, "{tip:?}");
+    for spacing in tip {
+        assert!((0.8 * asked..1.3 * asked).contains(&spacing), "{spacing}");
+    }
+    let flank = spacings(&text, |p| (p[0] - 0.3).abs() < 0.2);
+    assert!(flank.iter().all(|spacing| *spacing > 0.05), "{flank:?}");
+    let report: Value = serde_json::from_slice(&desk.read("out.json")).expect("JSON");
+    let figure = |path: &str| report.pointer(path).and_then(Value::as_f64).expect(path);
+    assert!(figure("/density/linf") < 2.5e-3);
+    assert_eq!(report["resolution"]["gamma"], "gather");
+    // The mean of h is off by what the field causes, which gather is not.
+    assert!(figure("/resolution/symmetric/linf") > 2.0 * figure("/density/linf"));
+    assert!(figure("/resolution/symmetric/rest_rms") < figure("/resolution/symmetric/rms"));
+    for (from, to, words) in [
+        ("finest = 0.005\n", "", "refinement.finest"),
+        ("curvature = 10", "curvature = 0", "particles per radius"),
+    ] {
+        let desk = Desk::new().with("scene.toml", ELLIPSE.replace(from, to));
+        let ending = desk.run(&["pack", "scene.toml"]);
+        assert_eq!(ending.status, Some(2));
+        assert!(ending.stderr.contains(words), "{}", ending.stderr);
+    }
+}
+
+#[test]
+fn spacings_come_from_a_file() {
+    let scene = r#"
+spacing = 0.1
+[refinement]
+coarsest = 0.1
+growth = 1.1
+field = "spacing.csv"
+[domain]
+min = [-1.0, -1.0]
+max = [1.0, 1.0]
+[[body]]
+name = "disc"
+shape = { circle = { center = [0.0, 0.0], radius = 0.6 } }
+"#;
+    // Fine on the left, in rows of no order.
+    let mut lines: Vec<String> = (0..441)
+        .map(|k| {
+            let k = (k * 100) % 441;
+            let (x, y) = (
+                f64::from(k % 21) / 10.0 - 1.0,
+                f64::from(k / 21) / 10.0 - 1.0,
+            );
+            format!("{x},{y},{}", if x < -0.35 { 0.03 } else { 0.2 })
+        })
+        .collect();
+    lines.insert(0, "x,y,spacing".to_owned());
+    let field = lines.join("\n");
+    let desk = Desk::new()
+        .with("scene.toml", scene)
+        .with("spacing.csv", &field);
+    desk.succeed(&[
+        "pack",
+        "scene.toml",
+        "-o",
+        "out.csv",
+        "--report",
+        "out.json",
+    ]);
+    let text = String::from_utf8(desk.read("out.csv")).expect("text");
+    let [left, right] = [-1.0, 1.0].map(|side| spacings(&text, |p| side * p[0] > 0.52));
+    assert!(
+        left.len() > 4 && left.iter().all(|s| (s / 0.03 - 1.0).abs() < 0.02),
+        "{left:?}"
+    );
+    assert!(
+        right.len() > 2 && right.iter().all(|s| *s > 0.09),
+        "{right:?}"
+    );
+    let report: Value = serde_json::from_slice(&desk.read("out.json")).expect("JSON");
+    let growth = report["resolution"]["growth_max"]
+        .as_f64()
+        .expect("a number");
+    assert!(growth < 1.13, "{growth}");
+    for (content, words) in [
+        (lines[..440].join("\n"), "no regular grid"),
+        (
+            field.replace("x,y,spacing", "x,y,s"),
+            "no column \"spacing\"",
+        ),
+        (field.replace(",0.03", ",-0.03"), "not a positive number"),
+    ] {
+        let desk = Desk::new()
+            .with("scene.toml", scene)
+            .with("spacing.csv", content);
+        let ending = desk.run(&["pack", "scene.toml"]);
+        assert_eq!(ending.status, Some(2));
+        assert!(ending.stderr.contains(words), "{}", ending.stderr);
+        assert!(ending.stderr.contains("spacing.csv"), "{}", ending.stderr);
+    }
+}
