@@ -27,6 +27,8 @@ pub(super) struct Body {
     pub(super) density: f64,
     /// The inset of its particle surface in ∆s; `None` is the default, ½.
     pub(super) surface: Option<f64>,
+    /// At its surface, in ∆s, where particles differ in size; `None` is ∆s.
+    pub(super) spacing: Option<f64>,
 }
 
 impl Body {
@@ -41,6 +43,7 @@ impl Body {
             precedence: 0,
             density: 1.0,
             surface: None,
+            spacing: None,
         }
     }
 
@@ -57,6 +60,16 @@ pub(super) enum Sides {
     Margin(f64),
 }
 
+/// Particles that grow away from bodies and regions, lengths in ∆s.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Refinement {
+    pub(super) coarsest: f64,
+    pub(super) finest: Option<f64>,
+    pub(super) growth: f64,
+    /// Corners of boxes, and how fine they are inside.
+    pub(super) regions: Vec<(Vec<f64>, Vec<f64>, f64)>,
+}
+
 /// A scene. Lengths are in ∆s and places from the box's corner, until it is [`placed`](Self::placed).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Case {
@@ -69,6 +82,7 @@ pub(super) struct Case {
     pub(super) periodic: Vec<bool>,
     pub(super) bodies: Vec<Body>,
     pub(super) fill: bool,
+    pub(super) refinement: Option<Refinement>,
     pub(super) method: Option<&'static str>,
     pub(super) kernel: Option<Kernel>,
     pub(super) h_over_spacing: Option<f64>,
@@ -93,8 +107,16 @@ impl Case {
             Sides::Corners(min, max) => Sides::Corners(at(min), at(max)),
             Sides::Margin(margin) => Sides::Margin(margin * unit),
         };
+        if let Some(refinement) = &mut new.refinement {
+            refinement.coarsest *= unit;
+            refinement.finest = refinement.finest.map(|finest| finest * unit);
+            for (min, max, spacing) in &mut refinement.regions {
+                (*min, *max, *spacing) = (at(min), at(max), *spacing * unit);
+            }
+        }
         let is_moved = origin.iter().any(|o| *o != 0.0);
         for body in &mut new.bodies {
+            body.spacing = body.spacing.map(|spacing| spacing * unit);
             let stays = body.translate.is_some() || !body.shape.can_shift();
             body.shape = body
                 .shape
@@ -167,6 +189,22 @@ impl Case {
         if self.periodic.contains(&true) {
             let _ = writeln!(text, "periodic = {:?}", self.periodic);
         }
+        if let Some(refinement) = &self.refinement {
+            let _ = writeln!(
+                text,
+                "[refinement]\ncoarsest = {:?}\ngrowth = {:?}",
+                refinement.coarsest, refinement.growth
+            );
+            if let Some(finest) = refinement.finest {
+                let _ = writeln!(text, "finest = {finest:?}");
+            }
+            for (min, max, spacing) in &refinement.regions {
+                let _ = writeln!(
+                    text,
+                    "[[refinement.region]]\nshape = {{ box = {{ min = {min:?}, max = {max:?} }} }}\nspacing = {spacing:?}"
+                );
+            }
+        }
         for (k, body) in self.bodies.iter().enumerate() {
             let shape = body.shape.toml(&self.file_name(k));
             let _ = writeln!(text, "[[body]]\nname = {:?}\nshape = {shape}", body.name);
@@ -184,6 +222,9 @@ impl Case {
             }
             if let Some(shift) = &body.translate {
                 let _ = writeln!(text, "translate = {shift:?}");
+            }
+            if let Some(spacing) = body.spacing {
+                let _ = writeln!(text, "spacing = {spacing:?}");
             }
             match body.role {
                 Role::Solid => {}

@@ -15,6 +15,8 @@ pub(super) struct Row {
     pub(super) mass: f64,
     pub(super) gamma: f64,
     pub(super) residual: f64,
+    /// Where particles differ in size.
+    pub(super) spacing: Option<f64>,
 }
 
 impl Row {
@@ -46,6 +48,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Row>, String> {
     let (id, x, y, kind, side, body) = (id?, x?, y?, kind?, side?, body?);
     let (volume, mass, gamma, residual) = (volume?, mass?, gamma?, residual?);
     let z = place("z").ok();
+    let spacing = place("spacing").ok();
     let mut rows = Vec::new();
     for line in lines {
         let fields: Vec<&str> = line.split(',').collect();
@@ -68,6 +71,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Row>, String> {
             mass: number(mass)?,
             gamma: number(gamma)?,
             residual: number(residual)?,
+            spacing: spacing.map(number).transpose()?,
         });
     }
     Ok(rows)

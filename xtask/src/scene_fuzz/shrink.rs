@@ -44,6 +44,7 @@ fn simpler(case: &Case) -> Vec<Case> {
         next.h_over_spacing = None;
         next.quality = None;
         next.fill = true;
+        next.refinement = None;
     });
     for k in 0..case.bodies.len() {
         if case.bodies.len() > 1 {
@@ -59,6 +60,13 @@ fn simpler(case: &Case) -> Vec<Case> {
     offer(&|next| next.quality = None);
     offer(&|next| next.fill = true);
     offer(&|next| next.method = None);
+    offer(&|next| next.refinement = None);
+    offer(&|next| {
+        if let Some(refinement) = &mut next.refinement {
+            refinement.regions.clear();
+            (refinement.finest, refinement.growth) = (None, 1.08);
+        }
+    });
     offer(&|next| next.periodic.iter_mut().for_each(|x| *x = false));
     for k in 0..case.packing.len() {
         offer(&|next| drop(next.packing.remove(k)));
@@ -72,6 +80,7 @@ fn simpler(case: &Case) -> Vec<Case> {
             };
         });
         offer(&|next| next.bodies[k].surface = None);
+        offer(&|next| next.bodies[k].spacing = None);
         offer(&|next| as_polygon(&mut next.bodies[k]));
         let corners = match &case.bodies[k].shape {
             Shape::Polygon { points } if points.len() > 3 => points.len(),

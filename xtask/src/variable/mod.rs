@@ -82,6 +82,13 @@ fn scene(row: &Row, selection: &Selection) -> Result<Option<Scene>, String> {
         }
         path = data.join("bunny.toml");
     }
+    if row.text.contains("hat.csv") {
+        let folder = root().join("target/variable");
+        path = folder.join("hat.toml");
+        fs::create_dir_all(&folder)
+            .and_then(|()| fs::write(folder.join("hat.csv"), rows::hat()))
+            .map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
     Scene::parse(&row.toml(), &path)
         .map(Some)
         .map_err(|error| error.to_string())
@@ -258,8 +265,9 @@ fn write(table: &str, others: &str, time: &str, curve: &[(f64, Outcome)]) -> Res
          {time}\n\
          ## How\n\n\
          1. The spacing s(x) is on each body's surface what the scene says, and grows from there with the distance d as\n\
-            s + (growth − 1) (√(d² + 9 s²) − 3 s), up to the coarsest.\n\
-         2. Surfaces get their particles first. Every part's core and every pocket of fluid gets as many as ∫ s^−D dV asks for, at the\n\
+            s + (growth − 1) (√(d² + 9 s²) − 3 s), up to the coarsest; from where a surface bends and `curvature` asks for more, with\n\
+            8 s for 3 s.\n\
+         2. Surfaces get their particles first, a curve at equal steps of ∫ dl/s. Every part's core and every pocket of fluid gets as many as ∫ s^−D dV asks for, at the\n\
             centres of mass of an equal-mass partition.\n\
          3. Order, 40 evaluations: ½ Σ V_i V_j W(r_ij, h̄) with h̄² = (h_i² + h_j²)/2 and the usual repulsion, sizes frozen.\n\
             With (h_i + h_j)/2 particles of different size mix where spacings grow fast.\n\

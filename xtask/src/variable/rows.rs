@@ -1,5 +1,7 @@
 //! The scenes of variable spacing, with their bars.
 
+use std::fmt::Write as _;
+
 /// A scene and its bars; parts of one unless said otherwise.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
@@ -24,14 +26,26 @@ pub(super) struct Row {
     pub(super) quick: bool,
 }
 
-const CIRCLE: &str = "
+macro_rules! circle {
+    ($x:literal, $y:literal) => {
+        concat!(
+            "
 [domain]
 min = [-4.0, -4.0]
 max = [4.0, 4.0]
 [[body]]
 name = \"circle\"
-shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
-";
+shape = { circle = { center = [",
+            $x,
+            ", ",
+            $y,
+            "], radius = 1.0 } }
+"
+        )
+    };
+}
+
+const CIRCLE: &str = circle!("0.0", "0.0");
 
 const PERIODIC: &str = "
 [domain]
@@ -57,7 +71,7 @@ const USUAL: Row = Row {
 };
 
 /// In the order of the table.
-pub(super) const ROWS: [Row; 18] = [
+pub(super) const ROWS: [Row; 24] = [
     Row {
         growth: 1.02,
         ..USUAL
@@ -93,6 +107,34 @@ pub(super) const ROWS: [Row; 18] = [
     Row {
         what: "the same, periodic",
         text: PERIODIC,
+        ..USUAL
+    },
+    Row {
+        scene: "shifted",
+        what: "the circle at 0.0137, 0.0291",
+        growth: 1.1,
+        text: circle!("0.0137", "0.0291"),
+        ..USUAL
+    },
+    Row {
+        scene: "shifted",
+        what: "the circle at -0.0424, 0.0113",
+        growth: 1.1,
+        text: circle!("-0.0424", "0.0113"),
+        ..USUAL
+    },
+    Row {
+        scene: "shifted",
+        what: "the circle at 0.0618, -0.0382",
+        growth: 1.1,
+        text: circle!("0.0618", "-0.0382"),
+        ..USUAL
+    },
+    Row {
+        scene: "shifted",
+        what: "the circle at -0.0271, -0.0577",
+        growth: 1.1,
+        text: circle!("-0.0271", "-0.0577"),
         ..USUAL
     },
     Row {
@@ -138,6 +180,35 @@ shape = { naca = { digits = \"0015\", chord = 1.0 } }
 [domain]
 min = [-2.0, -2.0]
 max = [2.0, 2.0]
+",
+        quick: true,
+        ..USUAL
+    },
+    Row {
+        scene: "hat",
+        what: "a field from a file, 4 : 1, ln s a cosine of the distance from the middle; no body",
+        spacings: [0.08, 0.08],
+        growth: 1.15,
+        text: "field = \"hat.csv\"
+[domain]
+min = [-1.0, -1.0]
+max = [1.0, 1.0]
+",
+        quick: true,
+        ..USUAL
+    },
+    Row {
+        scene: "bent",
+        what: "an ellipse with ten particles per radius of curvature",
+        spacings: [0.1, 0.2],
+        text: "finest = 0.005
+[domain]
+min = [-2.0, -1.5]
+max = [2.0, 1.5]
+[[body]]
+name = \"ellipse\"
+curvature = 10
+shape = { ellipse = { center = [0.0, 0.0], semi_axes = [1.0, 0.25] } }
 ",
         quick: true,
         ..USUAL
@@ -256,4 +327,19 @@ impl Row {
             self.growth, self.text
         )
     }
+}
+
+/// The file of the row whose field is a hat: the middle four times finer than the rim.
+pub(super) fn hat() -> String {
+    let mut text = "x,y,spacing\n".to_owned();
+    let half = 24;
+    for i in -half..=half {
+        for j in -half..=half {
+            let [x, y] = [i, j].map(|k| f64::from(k) / f64::from(half));
+            let angle = std::f64::consts::PI * x.hypot(y).min(1.0);
+            let spacing = 0.04 * (-(2.0_f64.ln()) * angle.cos()).exp();
+            let _ = writeln!(text, "{x},{y},{spacing}");
+        }
+    }
+    text
 }

@@ -78,6 +78,7 @@ pub(super) fn case(seed: u64, number: u64) -> Case {
         periodic: vec![false; dimension],
         bodies: Vec::new(),
         fill: !random.chance(0.06),
+        refinement: None,
         method,
         kernel: None,
         h_over_spacing: None,
@@ -132,6 +133,7 @@ pub(super) fn case(seed: u64, number: u64) -> Case {
         }
     }
     settings::finish(random, &mut case, room.size.iter().product());
+    settings::refine(random, &mut case, &room.size);
     // Now and then with a solid body, which is refused.
     if case.method() == "ppa" && random.chance(0.9) {
         case = case.emptied();
@@ -200,6 +202,8 @@ mod tests {
                 share(&|case| case.packing.contains(&line) && case.method() != "balanced");
             assert_eq!(default, 0.0);
         }
+        let graded = share(&|case| case.refinement.is_some());
+        assert!((0.04..0.09).contains(&graded), "{graded}");
         let files = share(&|case| case.bodies.iter().any(|body| body.shape.file().is_some()));
         assert!((0.1..0.4).contains(&files), "{files}");
     }

@@ -1,6 +1,6 @@
 //! How random scenes are packed, judged and written.
 
-use super::super::case::Case;
+use super::super::case::{Case, Refinement};
 use super::super::kernel::Kernel;
 use super::super::random::Random;
 
@@ -113,5 +113,49 @@ pub(super) fn finish(random: &mut Random, case: &mut Case, sites: f64) {
             case.packing.push("finish = \"calm\"".to_owned());
         }
         _ => {}
+    }
+}
+
+/// Particles that differ in size, in some scenes of the default method. Drawn after all else, as [`finish`].
+pub(super) fn refine(random: &mut Random, case: &mut Case, size: &[f64]) {
+    let is_for_one_size = (case.packing.iter()).any(|key| {
+        ["finish", "masses", "frozen"]
+            .iter()
+            .any(|name| key.starts_with(name))
+    });
+    if case.method() != "balanced" || !random.chance(0.12) {
+        return;
+    }
+    // Now and then one that is refused.
+    if is_for_one_size && !random.chance(0.05) {
+        return;
+    }
+    let growth = match random.below(3) {
+        0 => random.pick(&[1.02, 1.05, 1.08, 1.1, 1.2, 1.3]),
+        _ => random.between(1.02, 1.3),
+    };
+    let regions = (0..[0, 0, 0, 1, 1, 2][random.below(6)])
+        .map(|_| {
+            let ends = |length: &f64| {
+                let [a, b] = [
+                    random.between(-1.0, *length),
+                    random.between(0.0, length + 1.0),
+                ];
+                (a.min(b), a.max(b) + 0.5)
+            };
+            let (min, max) = size.iter().map(ends).unzip();
+            (min, max, random.between(0.7, 2.0))
+        })
+        .collect();
+    case.refinement = Some(Refinement {
+        coarsest: random.pick(&[1.0, 1.5, 2.0, 2.0, 3.0, 5.0]),
+        finest: random.chance(0.1).then(|| random.between(0.6, 1.0)),
+        growth,
+        regions,
+    });
+    for body in &mut case.bodies {
+        if random.chance(0.2) {
+            body.spacing = Some(random.between(0.6, 1.5));
+        }
     }
 }

@@ -13,7 +13,6 @@ const SHARE_LAYER: f64 = 1.0;
 
 pub(super) fn judge(scene: &Scene<'_>, faults: &mut Faults) {
     let truth = scene.truth;
-    let spacing = scene.case.spacing;
     for (number, body) in truth.bodies.iter().enumerate() {
         // A deeper particle surface leaves true body to the fluid.
         let allowed = SLACK + (body.inset - 0.5).max(0.0);
@@ -22,7 +21,7 @@ pub(super) fn judge(scene: &Scene<'_>, faults: &mut Faults) {
         for row in scene.rows.iter().filter(|row| !row.is_frozen()) {
             let is_own = row.side == "solid" && row.body == body.name;
             if is_own || row.side == "fluid" {
-                let distance = truth.distance(number, row.at) / spacing;
+                let distance = truth.distance(number, row.at) / scene.spacing(row);
                 match body.role {
                     Role::Solid | Role::Void if row.side == "fluid" => {
                         fluid.see(-distance - allowed, row);
@@ -125,8 +124,7 @@ fn is_within(scene: &Scene<'_>, body: &True, other: &True) -> bool {
 /// Each solid body's volume, where no other shares its particles.
 fn volumes(scene: &Scene<'_>, faults: &mut Faults) {
     let truth = scene.truth;
-    let spacing = scene.case.spacing;
-    let particle = spacing.powi(scene.case.dimension as i32);
+    let particle = scene.coarsest().powi(scene.case.dimension as i32);
     if ["free", "boundary", "fixed"]
         .iter()
         .any(|kind| !scene.case.includes(kind))
@@ -183,7 +181,7 @@ fn omitted(scene: &Scene<'_>, name: &str, most: f64) -> f64 {
 /// sit on that of another, or on a side of the box, and count for more or less than half.
 fn shares(scene: &Scene<'_>, number: usize) -> bool {
     let truth = scene.truth;
-    let spacing = scene.case.spacing;
+    let spacing = scene.coarsest();
     let own = &truth.bodies[number];
     let [low, high] = own.bounds();
     let is_at_side = scene.axes().any(|axis| {

@@ -78,6 +78,22 @@ impl Scene<'_> {
         0..self.case.dimension
     }
 
+    /// ∆s of a particle.
+    fn spacing(&self, row: &Row) -> f64 {
+        row.spacing.unwrap_or(self.case.spacing)
+    }
+
+    /// The greatest of all.
+    fn coarsest(&self) -> f64 {
+        let spacings = self.rows.iter().map(|row| self.spacing(row));
+        spacings.fold(self.case.spacing, f64::max)
+    }
+
+    /// Whether particles differ in size.
+    fn is_graded(&self) -> bool {
+        self.rows.iter().any(|row| row.spacing.is_some())
+    }
+
     fn volume(&self) -> f64 {
         self.axes().map(|k| self.max[k] - self.min[k]).product()
     }

@@ -38,15 +38,16 @@ pub(super) fn volume(scene: &Scene<'_>, faults: &mut Faults, notes: &mut Vec<Fau
 pub(super) fn fields(scene: &Scene<'_>, faults: &mut Faults) {
     let dimension = scene.case.dimension;
     let (kernel, ratio) = scene.case.judges();
-    let h = ratio * scene.case.spacing;
-    let reach = kernel.support() * h;
-    let (packs, ratio) = scene.case.packs();
+    let most = kernel.support() * ratio * scene.coarsest();
+    let (packs, packs_ratio) = scene.case.packs();
     // So far frozen rows reach.
-    let rim = packs.support() * ratio * scene.case.spacing;
-    let has_rim = scene.case.includes("frozen") && reach <= rim;
-    let all = scene.with_images(reach);
+    let is_seen = kernel.support() * ratio <= packs.support() * packs_ratio;
+    let has_rim = scene.case.includes("frozen") && is_seen;
+    let all = scene.with_images(most);
     if !scene.leaves_out() {
         for row in scene.rows.iter().filter(|row| !row.is_frozen()) {
+            let h = ratio * scene.spacing(row);
+            let reach = kernel.support() * h;
             let is_near_side = scene.axes().any(|k| {
                 !scene.case.periodic[k]
                     && (row.at[k] - scene.min[k]).min(scene.max[k] - row.at[k]) < reach
@@ -73,7 +74,7 @@ pub(super) fn fields(scene: &Scene<'_>, faults: &mut Faults) {
             }
             let residual = h * gradient.iter().map(|x| x * x).sum::<f64>().sqrt();
             // Far from the origin places have fewer digits.
-            let far = row.at.iter().fold(0.0_f64, |m, x| m.max(x.abs())) / scene.case.spacing;
+            let far = row.at.iter().fold(0.0_f64, |m, x| m.max(x.abs())) / scene.spacing(row);
             let slack = SAME * (1.0 + 1e-3 * far);
             if (row.gamma - gamma).abs() > slack * gamma {
                 let detail = format!("{} in the file, is {gamma}: {row:?}", row.gamma);

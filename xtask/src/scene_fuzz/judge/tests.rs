@@ -30,6 +30,7 @@ fn made() -> Made {
         periodic: vec![true, false],
         bodies: vec![Body::new("b0", shape)],
         fill: true,
+        refinement: None,
         method: None,
         kernel: Some(Kernel::WendlandC2),
         h_over_spacing: Some(1.3),
@@ -58,6 +59,7 @@ fn made() -> Made {
                 mass: 1.0,
                 gamma: 1.0,
                 residual: 0.0,
+                spacing: None,
             });
         }
     }
