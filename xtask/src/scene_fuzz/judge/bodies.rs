@@ -21,7 +21,7 @@ pub(super) fn judge(scene: &Scene<'_>, faults: &mut Faults) {
         for row in scene.rows.iter().filter(|row| !row.is_frozen()) {
             let is_own = row.side == "solid" && row.body == body.name;
             if is_own || row.side == "fluid" {
-                let distance = truth.distance(number, row.at) / scene.spacing(row);
+                let distance = to_images(scene, number, row) / scene.spacing(row);
                 match body.role {
                     Role::Solid | Role::Void if row.side == "fluid" => {
                         fluid.see(-distance - allowed, row);
@@ -42,6 +42,29 @@ pub(super) fn judge(scene: &Scene<'_>, faults: &mut Faults) {
     }
     unseen_overlaps(scene, faults);
     volumes(scene, faults);
+}
+
+/// How far a particle is from a body or the nearest of its images across periodic sides, negative inside.
+fn to_images(scene: &Scene<'_>, number: usize, row: &Row) -> f64 {
+    let truth = scene.truth;
+    let mut least = truth.distance(number, row.at);
+    let [low, high] = truth.bodies[number].bounds();
+    for code in 1..3_usize.pow(scene.case.dimension as u32) {
+        let turn = |k: usize| [0.0, -1.0, 1.0][code / 3_usize.pow(k as u32) % 3];
+        let mut at = row.at;
+        for k in scene.axes() {
+            at[k] += turn(k) * (scene.max[k] - scene.min[k]);
+        }
+        let is_image = scene.axes().all(|k| {
+            let room = scene.spacing(row);
+            let is_near = low[k] - room <= at[k] && at[k] <= high[k] + room;
+            is_near && (turn(k) == 0.0 || scene.case.periodic[k])
+        });
+        if is_image {
+            least = least.min(truth.distance(number, at));
+        }
+    }
+    least
 }
 
 /// The particle farthest on the wrong side.

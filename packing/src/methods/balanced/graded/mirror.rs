@@ -130,6 +130,8 @@ impl<const D: usize> Mirror<D> {
         for (image, place) in self.images.iter().zip(places) {
             let i = image.particle as usize;
             spacing.push(spacing[i]);
+            // Along periodic axes it goes where its particle does in the end.
+            let place = self.domain.wrap(place);
             particles.push(place, Kind::Frozen, particles.volume[i], None);
         }
         let h_over_spacing = particles.sizes.h_over_spacing();
