@@ -300,21 +300,3 @@ shape = { circle = { center = [0.0, 0.0], radius = 0.6 } }
         assert!(ending.stderr.contains("spacing.csv"), "{}", ending.stderr);
     }
 }
-
-#[test]
-fn frozen_images_are_wrapped_along_periodic_axes() {
-    let scene = SCENE.replace(
-        "max = [2.0, 1.3]",
-        "max = [2.0, 1.3]\nperiodic = [true, false]",
-    ) + "\n[output]\ninclude = [\"free\", \"boundary\", \"fixed\", \"frozen\"]\n";
-    let desk = Desk::new().with("scene.toml", scene);
-    desk.succeed(&["pack", "scene.toml", "-o", "out.csv", "-q"]);
-    let text = String::from_utf8(desk.read("out.csv")).expect("text");
-    let rows = rows(&text);
-    let frozen = rows.iter().filter(|row| row["kind"] == "frozen");
-    assert!(frozen.count() > 20);
-    for row in &rows {
-        let x: f64 = row["x"].parse().expect("a number");
-        assert!((-1.5..2.0).contains(&x), "{row:?}");
-    }
-}

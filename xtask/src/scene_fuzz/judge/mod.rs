@@ -78,9 +78,10 @@ impl Scene<'_> {
         0..self.case.dimension
     }
 
-    /// ∆s of a particle.
+    /// ∆s of a particle: its own, or that of all, which a refinement may make another than the scene's.
     fn spacing(&self, row: &Row) -> f64 {
-        row.spacing.unwrap_or(self.case.spacing)
+        let of_all = || self.figure(&["spacing"]);
+        (row.spacing.or_else(of_all)).unwrap_or(self.case.spacing)
     }
 
     /// The greatest of all.

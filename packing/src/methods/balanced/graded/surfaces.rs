@@ -197,14 +197,27 @@ impl<const D: usize> FollowingInset<D> {
                 ..inner
             };
         }
-        // From a corner the way is longer than the depth.
-        let (mut low, mut high) = (depth, MITRE * depth);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if -self.body.closest(at(middle)).distance < depth {
-                low = middle;
-            } else {
-                high = middle;
+        // From a corner the way is longer than the depth; in a body too small for it, as far as the way leads down.
+        let height = |way: f64| -self.body.closest(at(way)).distance;
+        let step = MITRE * depth / STEPS;
+        let (mut low, mut deepest) = (0.0, 0.0);
+        while low < MITRE * depth && height(low + step) > deepest {
+            low += step;
+            deepest = height(low);
+            if deepest >= depth {
+                break;
+            }
+        }
+        if deepest >= depth {
+            let mut high = low;
+            low -= step;
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (low + high);
+                if height(middle) < depth {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
             }
         }
         Closest {
@@ -218,8 +231,9 @@ impl<const D: usize> FollowingInset<D> {
 /// Points nearer to each other than this, in spacings, are one.
 const APART: f64 = 0.6;
 
-/// The corner of an inset is no farther from the body's than so many depths.
+/// The corner of an inset is no farther from the body's than so many depths; it is looked for in so many steps.
 const MITRE: f64 = 4.0;
+const STEPS: f64 = 64.0;
 
 /// A place is the nearest where the surface is this part of the way down away, or more.
 const NEAREST: f64 = 1.0 - 1e-9;

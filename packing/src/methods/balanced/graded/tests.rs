@@ -9,6 +9,7 @@ use sphpack_neighbors::{Bounds, Domain, point};
 use super::bisection::{Piece, places};
 use super::cells::{Cells, Layers};
 use super::energy::{Aim, GradedEnergy, NONE, Regions, target};
+use super::mirror::Mirror;
 use super::pockets;
 use crate::methods::Balanced;
 use crate::minimise::{Movable, Potential};
@@ -162,6 +163,26 @@ fn images_are_mirrored_at_open_sides() {
         worst = worst.max((gamma - target).abs());
     }
     assert!((level - worst).abs() < 1e-10, "{level} {worst}");
+}
+
+/// Particles leave a periodic box while they settle; what is frozen in the end is in it.
+#[test]
+fn frozen_images_are_wrapped_along_periodic_axes() {
+    let domain = Domain::new([-1.0; 2], [1.2; 2]).with_periodic([true, false]);
+    let problem = around(domain, 0.07, 1.1);
+    let (mut particles, _) = shaken(&problem, 9);
+    let own = particles.len();
+    for place in &mut particles.position {
+        place[0] += 0.5;
+    }
+    let mirror = Mirror::new(domain, problem.resolution.clone(), 3.6);
+    mirror.freeze(&mut particles, 3.6);
+    let frozen = &particles.position[own..];
+    assert!(frozen.len() > 20);
+    for place in frozen {
+        assert!((-1.0..1.2).contains(&place[0]), "{place:?}");
+        assert!(!(-1.0..=1.2).contains(&place[1]), "{place:?}");
+    }
 }
 
 #[test]
