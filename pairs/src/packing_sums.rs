@@ -81,7 +81,6 @@ impl PackingSums<'_> {
     pub fn sum<const D: usize>(self, repulsion: Repulsion, out: &mut [PackingSum]) {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         let terms = (Density, Gradient, repulsion);
-        // Not generic, so that the loops, long code for every kernel and vector width, are compiled here, once.
         if D == 2 {
             sum_in_plane(self, &terms, out);
         } else {
@@ -96,9 +95,9 @@ impl PackingSums<'_> {
     pub fn gradient<const D: usize>(self, out: &mut [[f64; 3]]) {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         if D == 2 {
-            gradient_in_plane(self, out);
+            gradient_in_plane(self, &TargetGradient, out);
         } else {
-            gradient_in_space(self, out);
+            gradient_in_space(self, &TargetGradient, out);
         }
     }
 
@@ -110,9 +109,9 @@ impl PackingSums<'_> {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         assert_eq!(self.gathered.stride, D + 1, "a number and a vector");
         if D == 2 {
-            vary_in_plane(self, out);
+            vary_in_plane(self, &Variation::default(), out);
         } else {
-            vary_in_space(self, out);
+            vary_in_space(self, &Variation::default(), out);
         }
     }
 
@@ -151,74 +150,36 @@ impl PackingSums<'_> {
     pub fn scatter<const D: usize>(self, out: &mut [DensityBySum]) {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         if D == 2 {
-            scatter_in_plane(self, out);
+            scatter_in_plane(self, &DensityBy::default(), out);
         } else {
-            scatter_in_space(self, out);
+            scatter_in_space(self, &DensityBy::default(), out);
         }
     }
 }
 
-type Gathering = (DensityBy<Gather>, SizedRepulsion);
-type Averaging = (DensityBy<Mean>, SizedRepulsion);
+/// Sums of these terms in the plane and in space. Not generic, so that the loops, long code for every kernel and vector width, are
+/// compiled here, once.
+macro_rules! compiled {
+    ($($plane:ident, $space:ident: $terms:ty;)+) => {
+        $(
+            fn $plane(of: PackingSums<'_>, terms: &$terms, out: &mut [<$terms as Term>::Sum]) {
+                of.shape.with::<2, _>(of.length, Work { of, terms, out });
+            }
 
-fn gather_in_plane(of: PackingSums<'_>, terms: &Gathering, out: &mut [SizedSum]) {
-    let work = Work { of, terms, out };
-    of.shape.with::<2, _>(of.length, work);
+            fn $space(of: PackingSums<'_>, terms: &$terms, out: &mut [<$terms as Term>::Sum]) {
+                of.shape.with::<3, _>(of.length, Work { of, terms, out });
+            }
+        )+
+    };
 }
 
-fn gather_in_space(of: PackingSums<'_>, terms: &Gathering, out: &mut [SizedSum]) {
-    let work = Work { of, terms, out };
-    of.shape.with::<3, _>(of.length, work);
-}
-
-fn average_in_plane(of: PackingSums<'_>, terms: &Averaging, out: &mut [SizedSum]) {
-    let work = Work { of, terms, out };
-    of.shape.with::<2, _>(of.length, work);
-}
-
-fn average_in_space(of: PackingSums<'_>, terms: &Averaging, out: &mut [SizedSum]) {
-    let work = Work { of, terms, out };
-    of.shape.with::<3, _>(of.length, work);
-}
-
-fn scatter_in_plane(of: PackingSums<'_>, out: &mut [DensityBySum]) {
-    let terms = &DensityBy::<Scatter>::default();
-    of.shape.with::<2, _>(of.length, Work { of, terms, out });
-}
-
-fn scatter_in_space(of: PackingSums<'_>, out: &mut [DensityBySum]) {
-    let terms = &DensityBy::<Scatter>::default();
-    of.shape.with::<3, _>(of.length, Work { of, terms, out });
-}
-
-fn sum_in_plane(of: PackingSums<'_>, terms: &PackingTerms, out: &mut [PackingSum]) {
-    let work = Work { of, terms, out };
-    of.shape.with::<2, _>(of.length, work);
-}
-
-fn sum_in_space(of: PackingSums<'_>, terms: &PackingTerms, out: &mut [PackingSum]) {
-    let work = Work { of, terms, out };
-    of.shape.with::<3, _>(of.length, work);
-}
-
-fn gradient_in_plane(of: PackingSums<'_>, out: &mut [[f64; 3]]) {
-    let terms = &TargetGradient;
-    of.shape.with::<2, _>(of.length, Work { of, terms, out });
-}
-
-fn gradient_in_space(of: PackingSums<'_>, out: &mut [[f64; 3]]) {
-    let terms = &TargetGradient;
-    of.shape.with::<3, _>(of.length, Work { of, terms, out });
-}
-
-fn vary_in_plane(of: PackingSums<'_>, out: &mut [VariationSum]) {
-    let terms = &Variation::default();
-    of.shape.with::<2, _>(of.length, Work { of, terms, out });
-}
-
-fn vary_in_space(of: PackingSums<'_>, out: &mut [VariationSum]) {
-    let terms = &Variation::default();
-    of.shape.with::<3, _>(of.length, Work { of, terms, out });
+compiled! {
+    sum_in_plane, sum_in_space: PackingTerms;
+    gradient_in_plane, gradient_in_space: TargetGradient;
+    vary_in_plane, vary_in_space: Variation;
+    gather_in_plane, gather_in_space: (DensityBy<Gather>, SizedRepulsion);
+    average_in_plane, average_in_space: (DensityBy<Mean>, SizedRepulsion);
+    scatter_in_plane, scatter_in_space: DensityBy<Scatter>;
 }
 
 /// Work for whichever kernel.

@@ -201,12 +201,12 @@ impl<const D: usize> FollowingInset<D> {
         let height = |way: f64| -self.body.closest(at(way)).distance;
         let step = MITRE * depth / STEPS;
         let (mut low, mut deepest) = (0.0, 0.0);
-        while low < MITRE * depth && height(low + step) > deepest {
-            low += step;
-            deepest = height(low);
-            if deepest >= depth {
+        while low < MITRE * depth && deepest < depth {
+            let next = height(low + step);
+            if next <= deepest {
                 break;
             }
+            (low, deepest) = (low + step, next);
         }
         if deepest >= depth {
             let mut high = low;
