@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Mesh, topology, triangle};
+use super::{Mesh, topology, triangle, vanished};
 use crate::level_inset::LevelInset;
 use crate::surface::Surface;
 use crate::{GeometryError, ParameterError};
@@ -22,7 +22,8 @@ const FLAT: f64 = 0.05;
 /// −α/2 for a reflex one (a round strip is added). c is, at a vertex with flat faces that meet in edges, the sum of
 /// (2 w₁w₂ + (w₁² + w₂²) cos β) / (2 sin β) over the faces' angles β; elsewhere the angle defect. Exact for convex
 /// polyhedra with three edges per corner while no face vanishes, and for smooth bodies as far as the mesh resolves
-/// them; depth ≪ size of what is not smooth otherwise.
+/// them; depth ≪ size of what is not smooth otherwise. Where whole walls vanish, area and volume are counted
+/// ([`vanished::contents`]).
 pub(super) fn inset(mesh: &Mesh, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
     ParameterError::check_depth(depth)?;
     let body: Arc<dyn Surface<3>> = Arc::new(mesh.clone());
@@ -31,6 +32,10 @@ pub(super) fn inset(mesh: &Mesh, depth: f64) -> Result<Arc<dyn Surface<3>>, Geom
     }
     if (mesh.normals.turn.iter().flatten()).any(|turn| turn.abs() > FOLD) {
         return Ok(Arc::new(LevelInset::new(body, depth)?));
+    }
+    if let Some((area, volume)) = vanished::contents(mesh, depth) {
+        let inset = LevelInset::with_contents(body, depth, area, volume)?;
+        return Ok(Arc::new(inset));
     }
     let (edges, vertices) = coefficients(mesh);
     let area = mesh.area - depth * (2.0 * edges - depth * vertices);

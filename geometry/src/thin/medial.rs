@@ -1,6 +1,6 @@
 //! Points midway between the sides of what is too thin for a particle surface.
 
-use sphpack_neighbors::{Domain, KdTree, point};
+use sphpack_neighbors::{Domain, Found, KdTree, point};
 
 use super::shares::{CLEAR, Counts, Middle, Part, Shares, tree};
 use crate::GeometryError;
@@ -24,6 +24,9 @@ const ROOM_AT_TIPS: f64 = 0.9;
 
 /// Times as far apart points start as they would be on a sheet: far enough for a rod.
 const WIDE: f64 = 1.5;
+
+/// Where no point of the inset is within so many times the distance that others keep from it, the inset itself is clear.
+const SURELY_CLEAR: f64 = 3.0;
 
 /// Strides by which the tip of a part is approached; each leaves five sixths of the way in a wedge of 20°.
 const STRIDES: usize = 20;
@@ -58,6 +61,7 @@ pub(super) fn along<const D: usize>(
             part,
             body,
             inset,
+            around: &around,
             clear: CLEAR * shares.spacing,
             sites,
             free,
@@ -141,6 +145,8 @@ struct Set<'a, const D: usize> {
     part: &'a Part<D>,
     body: &'a dyn Surface<D>,
     inset: Option<&'a dyn Surface<D>>,
+    /// The points on the inset.
+    around: &'a KdTree<D>,
     /// How far from the inset its points keep.
     clear: f64,
     /// Its points, then the fixed ones around.
@@ -192,6 +198,10 @@ impl<const D: usize> Set<'_, D> {
 
     /// `p`, or the nearest point as far from the inset as points keep.
     fn kept_clear(&self, p: [f64; D]) -> [f64; D] {
+        let is_beside = |near: Found| near.distance <= SURELY_CLEAR * self.clear;
+        if !self.around.nearest(p).is_some_and(is_beside) {
+            return p;
+        }
         let Some(hit) = self.inset.map(|surface| surface.closest(p)) else {
             return p;
         };

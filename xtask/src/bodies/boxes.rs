@@ -1,32 +1,20 @@
 //! Random bodies that pass the sides of a box, lie on them or meet their images across them.
 
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 use std::path::Path;
 
-use sphpack::{Options, Outcome, Scene, run as pack};
-use sphpack_packing::{Kind, Silent};
+use sphpack::Outcome;
+use sphpack_packing::Kind;
 
+use super::drawn::{COINCIDENT, DEEP, Drawn, is_deep};
 use super::shapes::Shape;
-use super::{CLOSEST, LINF, Row};
 use crate::scene_fuzz::random::Random;
-
-/// Boxes of each kind, and in the short form.
-pub(super) const WALLS: usize = 200;
-pub(super) const CELLS: usize = 300;
-const QUICK: usize = 10;
 
 /// Cells along an axis by which volumes are counted, in the plane and in space.
 const RASTER: [usize; 2] = [1200, 150];
 
 /// Steps of a sequence that covers the unit cube evenly.
 const STEPS: [f64; 3] = [0.819_172_513_396, 0.671_043_606_703, 0.549_700_477_901];
-
-/// A fluid particle is in a solid where it is deeper than this, in ∆s.
-const DEEP: f64 = 0.12;
-
-/// Pairs nearer than this, in ∆s, are wrong.
-const COINCIDENT: f64 = 0.5;
 
 /// A body in a box.
 #[derive(Debug, Clone)]
@@ -97,18 +85,6 @@ impl Boxed {
         }
     }
 
-    fn text(&self) -> String {
-        let list = |values: &[f64; 3]| format!("{:?}", &values[..self.dimension]);
-        format!(
-            "spacing = {:?}\n[domain]\nmin = {}\nmax = {}\nperiodic = {:?}\n[[body]]\nname = \"body\"\nshape = {{ {} }}\n",
-            self.spacing,
-            list(&[0.0; 3]),
-            list(&self.max),
-            &self.periodic[..self.dimension],
-            self.shape.words(self.dimension)
-        )
-    }
-
     /// Whether the body or an image of it holds a place.
     fn holds(&self, p: [f64; 3]) -> bool {
         (self.shifts.iter()).any(|shift| self.shape.holds(std::array::from_fn(|k| p[k] + shift[k])))
@@ -140,8 +116,21 @@ impl Boxed {
         let cell: f64 = step[..self.dimension].iter().product();
         held as f64 * cell
     }
+}
 
-    /// What is wrong with a packing that says it is right.
+impl Drawn for Boxed {
+    fn text(&self, _folder: &Path, _number: u64) -> Result<String, String> {
+        let list = |values: &[f64; 3]| format!("{:?}", &values[..self.dimension]);
+        Ok(format!(
+            "spacing = {:?}\n[domain]\nmin = {}\nmax = {}\nperiodic = {:?}\n[[body]]\nname = \"body\"\nshape = {{ {} }}\n",
+            self.spacing,
+            list(&[0.0; 3]),
+            list(&self.max),
+            &self.periodic[..self.dimension],
+            self.shape.words(self.dimension)
+        ))
+    }
+
     fn faults(&self, outcome: &Outcome) -> Vec<String> {
         let table = &outcome.table;
         let mut faults = Vec::new();
@@ -160,7 +149,9 @@ impl Boxed {
                 volume += table.volume[i];
                 strayed += usize::from(!self.holds(p));
             } else {
-                sunk += usize::from(self.is_deep(p));
+                sunk += usize::from(is_deep(self.dimension, DEEP * self.spacing, p, |p| {
+                    self.holds(p)
+                }));
             }
         }
         for (count, what) in [
@@ -208,25 +199,6 @@ impl Boxed {
             faults.push(format!("the closest pair is {least}, said is {said}"));
         }
         faults
-    }
-
-    fn is_deep(&self, p: [f64; 3]) -> bool {
-        let far = DEEP * self.spacing;
-        self.holds(p)
-            && (0..60).all(|n| {
-                let angle = TAU * f64::from(n) * 0.618_034;
-                let high = if self.dimension == 2 {
-                    0.0
-                } else {
-                    f64::from(n) / 29.5 - 1.0
-                };
-                let flat = (1.0 - high * high).sqrt();
-                self.holds([
-                    p[0] + far * flat * angle.cos(),
-                    p[1] + far * flat * angle.sin(),
-                    p[2] + far * high,
-                ])
-            })
     }
 }
 
@@ -367,81 +339,13 @@ fn solid(random: &mut Random, max: [f64; 3], periodic: [bool; 3]) -> Shape {
     }
 }
 
-/// Boxes of one kind.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct BoxKind {
-    pub(super) name: &'static str,
-    is_cell: bool,
-    count: usize,
+/// A box with open sides, and one with periodic ones.
+pub(super) fn wall(number: u64) -> Box<dyn Drawn> {
+    Box::new(Boxed::random(0, number, false))
 }
 
-/// Boxes with open sides, and with periodic ones.
-pub(super) const KINDS: [BoxKind; 2] = [
-    BoxKind {
-        name: "walls",
-        is_cell: false,
-        count: WALLS,
-    },
-    BoxKind {
-        name: "periodic cells",
-        is_cell: true,
-        count: CELLS,
-    },
-];
-
-/// Packs and judges boxes of a kind.
-pub(super) fn row(kind: BoxKind, folder: &Path, is_quick: bool) -> Result<Row, String> {
-    let mut row = Row::new(kind.name);
-    for number in 0..if is_quick { QUICK } else { kind.count } {
-        let boxed = Boxed::random(u64::from(kind.is_cell), number as u64, kind.is_cell);
-        judge(&boxed, number, folder, &mut row)?;
-    }
-    Ok(row)
-}
-
-fn judge(boxed: &Boxed, number: usize, folder: &Path, row: &mut Row) -> Result<(), String> {
-    row.scenes += 1;
-    let text = boxed.text();
-    let path = folder.join(format!("{}-{number}.toml", row.name.replace(' ', "-")));
-    std::fs::write(&path, &text).map_err(|error| format!("{}: {error}", path.display()))?;
-    let scene = Scene::parse(&text, &path).map_err(|error| error.to_string())?;
-    let outcome = match pack(&scene, &Options::default(), &mut Silent) {
-        Ok(outcome) => outcome,
-        Err(error) => {
-            row.refused += 1;
-            eprintln!("{} {number}: refused: {error}", row.name);
-            return Ok(());
-        }
-    };
-    let report = &outcome.report;
-    if !(report.converged && report.audit.passed) {
-        row.said += 1;
-        eprintln!(
-            "{} {number}: {}: {:?}",
-            row.name, report.stop_reason, report.audit.messages
-        );
-        return Ok(());
-    }
-    let faults = boxed.faults(&outcome);
-    let closest = report.closest_pair_over_spacing;
-    row.right += usize::from(faults.is_empty());
-    row.even += usize::from(report.density.linf <= LINF && closest >= CLOSEST);
-    if !(report.density.linf <= LINF && closest >= CLOSEST) {
-        eprintln!(
-            "{} {number}: L∞ {:.2e}, closest pair {closest:.3}",
-            row.name, report.density.linf
-        );
-    }
-    row.worst[1] = row.worst[1].max(report.density.linf);
-    row.worst[2] = row.worst[2].min(closest);
-    if !faults.is_empty() {
-        let mut words = format!("{} {number}:", row.name);
-        for fault in faults {
-            let _ = write!(words, " {fault};");
-        }
-        row.wrong.push(words);
-    }
-    Ok(())
+pub(super) fn cell(number: u64) -> Box<dyn Drawn> {
+    Box::new(Boxed::random(1, number, true))
 }
 
 #[cfg(test)]
@@ -455,6 +359,7 @@ mod tests {
         let boxed = Boxed::new(2, 0.1, sides, shape);
         assert!((boxed.volume() - 0.5).abs() < 1e-9);
         assert!(boxed.holds([0.2, 0.2, 0.0]) && !boxed.holds([0.8, 0.2, 0.0]));
-        assert!(boxed.is_deep([0.2, 0.2, 0.0]) && !boxed.is_deep([0.495, 0.2, 0.0]));
+        let deep = |p| is_deep(2, 0.012, p, |p| boxed.holds(p));
+        assert!(deep([0.2, 0.2, 0.0]) && !deep([0.495, 0.2, 0.0]));
     }
 }

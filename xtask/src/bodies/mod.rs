@@ -1,9 +1,14 @@
 //! Bodies in parts, packed at many spacings and judged part by part by code that shares nothing with what packs.
 
 mod boxes;
+mod contacts;
+mod drawn;
+mod frame;
 mod plane;
 mod shapes;
 mod space;
+mod thin;
+mod turned;
 
 use std::fmt::Write as _;
 use std::fs;
@@ -150,9 +155,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             write(&rows)?;
         }
     }
-    for kind in boxes::KINDS {
+    for kind in drawn::KINDS {
         if is_asked(kind.name) {
-            rows.push(boxes::row(kind, &folder, settings.quick)?);
+            rows.push(drawn::row(kind, &folder, settings.quick)?);
             println!("{}", rows.last().map(line).unwrap_or_default());
             write(&rows)?;
         }
@@ -269,10 +274,13 @@ particle is in, and compares their volumes with the exact ones. *Right*: every p
 particle, or to 1 % where that is more. *Even*: L∞ of the density at most {:.1} % and no pair nearer than {CLOSEST} ∆s.
 *Said*: exit status 3 with the place and the cure. *Wrong*: done, but a mass is off.
 
-*Walls* and *periodic cells* are random boxes, in the plane and in space, with a body that passes a side, lies on one, is as long as the
-box or meets its images: {walls} with open sides, {cells} with periodic ones, at one spacing each. There *right* means that no particle is
-outside the box, none of the body outside the body or its images, none of the fluid more than 0.12 ∆s inside, the mass what counting
-cells of the box gives, and no two particles are nearer than half a spacing, images counted.
+Below are random bodies at one spacing each, judged by their own formulas: none of the body outside it, none of the fluid more than
+0.12 ∆s inside, its volume to half a particle or 1 %, no two particles nearer than half a spacing.
+*Walls* and *periodic cells* pass a side of the box, lie on one, are as long as the box or meet their images, in the plane and in space; volumes
+are by counting cells of the box, images are counted. *Thin* are strips and plates of 0.02 to 6 ∆s at any angle, two in five of them watertight:
+then no gap along the middle of a strip is wider than 1.2 ∆s, no hole of a plate wider than that times √2. *Contacts* are blocks of one
+file that share a side, a part of one, an edge or a point, or are flush at their ends; no surface particle is on an inner wall. *Turned parts* are
+pipes with flanges or fins, cones, needles, sharp rings and cups, at 1/25 to 1/50 of the diagonal.
 
 What is not even is coarse, and almost all of it lies where sides are a half-odd number of ∆s apart: what a wall is to hold beside a
 row for every ∆s of its sides does not make a row of its own. Long sides make room, their particles slide; short ones between corners, which
@@ -283,9 +291,7 @@ take mass out of the corners, and are half a cure where the body turns inward.
 | body | scenes | right | even | said | refused | wrong | worst mass, in allowances | worst L∞ | closest pair |
 |---|---|---|---|---|---|---|---|---|---|
 ",
-        100.0 * LINF,
-        walls = boxes::WALLS,
-        cells = boxes::CELLS
+        100.0 * LINF
     );
     let is_new = |line: &str| {
         let name = line.trim_start_matches("| ").split(" |").next();

@@ -1,12 +1,13 @@
 //! Bodies in space: boxes and balls beside each other, as triangles.
 
 use std::f64::consts::PI;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
 use super::{Case, Particle, Region};
 
-type Triangle = [[f64; 3]; 3];
+pub(super) type Triangle = [[f64; 3]; 3];
 
 /// Solids that do not touch.
 struct Solids {
@@ -44,7 +45,7 @@ pub(super) fn cases() -> Vec<Box<dyn Case>> {
     ]
 }
 
-fn cuboid(min: [f64; 3], max: [f64; 3]) -> Vec<Triangle> {
+pub(super) fn cuboid(min: [f64; 3], max: [f64; 3]) -> Vec<Triangle> {
     let corner = |k: usize| std::array::from_fn(|a| if k >> a & 1 == 1 { max[a] } else { min[a] });
     [
         [0, 2, 3, 1],
@@ -93,7 +94,7 @@ fn ball(center: [f64; 3], radius: f64) -> Vec<Triangle> {
 }
 
 /// By the divergence theorem.
-fn volume(triangles: &[Triangle]) -> f64 {
+pub(super) fn volume(triangles: &[Triangle]) -> f64 {
     let six: f64 = (triangles.iter())
         .map(|[a, b, c]| determinant(*a, *b, *c))
         .sum();
@@ -118,6 +119,18 @@ fn winds(triangles: &[Triangle], p: [f64; 3]) -> bool {
     (sum / (4.0 * PI)).abs() > 0.5
 }
 
+/// As OBJ, which keeps all digits.
+pub(super) fn write(triangles: &[Triangle], path: &Path) -> Result<(), String> {
+    let mut text = String::new();
+    for (number, [x, y, z]) in triangles.iter().flatten().enumerate() {
+        let _ = writeln!(text, "v {x:?} {y:?} {z:?}");
+        if number % 3 == 2 {
+            let _ = writeln!(text, "f {} {} {}", number - 1, number, number + 1);
+        }
+    }
+    fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
 impl Case for Solids {
     fn name(&self) -> &'static str {
         self.name
@@ -132,16 +145,7 @@ impl Case for Solids {
     }
 
     fn write(&self, folder: &Path) -> Result<String, String> {
-        // OBJ keeps all digits.
-        let mut text = String::new();
-        for (number, [x, y, z]) in self.solids.iter().flatten().flatten().enumerate() {
-            text.push_str(&format!("v {x:?} {y:?} {z:?}\n"));
-            if number % 3 == 2 {
-                text.push_str(&format!("f {} {} {}\n", number - 1, number, number + 1));
-            }
-        }
-        let path = folder.join("body.obj");
-        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        write(&self.solids.concat(), &folder.join("body.obj"))?;
         Ok("body.obj".to_owned())
     }
 
