@@ -86,6 +86,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     }
     let total: usize = asked.iter().map(|(_, points)| points.len()).sum();
     let (begin, mut done) = (Instant::now(), 0);
+    let names: Vec<&str> = asked.iter().map(|(place, _)| place.scene).collect();
     let mut sheets = Vec::new();
     for (place, points) in asked {
         let mut sheet = Sheet {
@@ -111,9 +112,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         }
         sheets.push(sheet);
         // After each scene: whoever stops here has what there is.
-        page::write(&folder, &sheets)?;
+        let missing = &names[sheets.len()..];
+        page::write(&folder, &sheets, missing)?;
         if selection.write {
-            page::document(&root().join("docs"), &sheets)?;
+            page::document(&root().join("docs"), &sheets, missing)?;
         }
     }
     eprintln!("── {}", folder.join("index.html").display());

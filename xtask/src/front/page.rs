@@ -14,14 +14,14 @@ use super::table::Table;
 /// A picture for the docs is no larger.
 const MOST_BYTES: usize = 60_000;
 
-/// Writes `index.html`, `points.csv` and the pictures into a folder.
-pub(super) fn write(folder: &Path, sheets: &[Sheet]) -> Result<(), String> {
+/// Writes `index.html`, `points.csv` and the pictures into a folder; `missing` are scenes that are still to come.
+pub(super) fn write(folder: &Path, sheets: &[Sheet], missing: &[&str]) -> Result<(), String> {
     let style = "body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}\
                  table{border-collapse:collapse;margin:.7em 0}th,td{padding:.2em .7em;border-bottom:1px solid #ddd;text-align:left;font-size:14px}";
     let mut page = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Speed against accuracy</title>\n<style>{style}</style></head><body>\n"
     );
-    for part in parts(sheets) {
+    for part in parts(sheets, missing) {
         page += &match part {
             Part::Heading(1, text) => format!("<h1>{text}</h1>\n"),
             Part::Heading(_, text) => format!("<h2>{text}</h2>\n"),
@@ -43,9 +43,9 @@ pub(super) fn write(folder: &Path, sheets: &[Sheet]) -> Result<(), String> {
 }
 
 /// Writes chart.md and its pictures into the folder of the docs.
-pub(super) fn document(folder: &Path, sheets: &[Sheet]) -> Result<(), String> {
+pub(super) fn document(folder: &Path, sheets: &[Sheet], missing: &[&str]) -> Result<(), String> {
     let mut page = String::new();
-    for part in parts(sheets) {
+    for part in parts(sheets, missing) {
         page += &match part {
             Part::Heading(level, text) => format!("{} {text}\n\n", "#".repeat(level)),
             Part::Text(text) => format!("{text}\n\n"),
@@ -96,14 +96,22 @@ enum Part<'a> {
     Picture(&'a Sheet),
 }
 
-fn parts(sheets: &[Sheet]) -> Vec<Part<'_>> {
+fn parts<'a>(sheets: &'a [Sheet], missing: &[&str]) -> Vec<Part<'a>> {
     let mut parts = vec![
         Part::Heading(1, "Speed against accuracy".to_owned()),
         Part::Text(about()),
+    ];
+    if !missing.is_empty() {
+        parts.push(Part::Text(format!(
+            "Not yet packed: {}. The same command goes on with what is missing.",
+            missing.join(", ")
+        )));
+    }
+    parts.extend([
         Part::Heading(2, "Which method and settings to take when".to_owned()),
         Part::Text(advice::RULE.to_owned()),
         Part::Table(advice::table(sheets)),
-    ];
+    ]);
     for sheet in sheets {
         let Sheet { place, .. } = sheet;
         parts.push(Part::Heading(

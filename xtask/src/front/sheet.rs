@@ -207,7 +207,7 @@ mod tests {
                     peak_memory_bytes: 1e6,
                     linf: 0.01 * (2.0 + (2.0 * i).sin()),
                     residual: 1e-3 / (i + 1.0),
-                    function: (i < 4.0).then_some(1.0 + i),
+                    function: (i < 4.0).then_some(2.0 + i),
                     derivative: None,
                     closest_pair: 0.9,
                     on_surface: if point.name == "clipped" { 0.0 } else { 1.0 },
