@@ -28,8 +28,12 @@ pub(super) fn run(file: &Path, result: &Path) -> Result<(), String> {
     let scene = Scene::parse(&text, file).map_err(|error| error.to_string())?;
     let ended = match measured(&scene) {
         Ok(figures) => Ended::Measured(Box::new(figures)),
-        // What a scene may not ask for is no failure of the chart.
-        Err(refusal) => Ended::LeftOut(refusal),
+        // What a scene may not ask for is no failure of the chart, whose page need not name the file either.
+        Err(refusal) => {
+            let named = format!("{}: ", file.display());
+            let why = refusal.strip_prefix(&named).unwrap_or(&refusal);
+            Ended::LeftOut(why.to_owned())
+        }
     };
     let text = serde_json::to_string(&ended).map_err(|error| error.to_string())?;
     // A result is there whole or not at all.
