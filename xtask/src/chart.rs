@@ -40,7 +40,7 @@ const COLOURS: [&str; 7] = [
 
 impl Axis {
     /// The numbers that the axis spans, ends at ticks.
-    fn span(&self, values: impl Iterator<Item = f64>) -> ([f64; 2], Vec<f64>) {
+    pub(crate) fn span(&self, values: impl Iterator<Item = f64>) -> ([f64; 2], Vec<f64>) {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in values.filter(|v| v.is_finite() && (*v > 0.0 || self.scale == Scale::Linear)) {
             low = low.min(value);
@@ -72,7 +72,7 @@ impl Axis {
     }
 
     /// How far along the axis a number is, 0 … 1.
-    fn part(&self, value: f64, [from, to]: [f64; 2]) -> f64 {
+    pub(crate) fn part(&self, value: f64, [from, to]: [f64; 2]) -> f64 {
         match self.scale {
             Scale::Linear => (value - from) / (to - from),
             Scale::Logarithmic => (value / from).ln() / (to / from).ln(),
@@ -171,7 +171,7 @@ impl Chart {
 }
 
 /// A tick's number.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     if value != 0.0 && (value.abs() < 1e-2 || value.abs() >= 1e5) {
         format!("{value:.0e}")
     } else {

@@ -13,9 +13,11 @@ mod corpora;
 mod dial;
 mod draw;
 mod figures;
+mod front;
 mod fuzz;
 mod gaps;
 mod interface;
+mod kept;
 mod lattices;
 #[path = "../../geometry/src/read/mangle.rs"]
 mod mangle;

@@ -5,7 +5,7 @@ use crate::scene_fuzz::{self, estimates, faults, files, kills};
 use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
-    balanced, bodies, ci, compare, corpora, draw, fuzz, lattices, reliability, reproduction,
+    balanced, bodies, ci, compare, corpora, draw, front, fuzz, lattices, reliability, reproduction,
     round_trip, speed, tidy, variable,
 };
 
@@ -24,7 +24,7 @@ pub(crate) struct Task {
 }
 
 /// In the order of the usage; of one name the forms with flags come first.
-pub(crate) const TASKS: [Task; 19] = [
+pub(crate) const TASKS: [Task; 20] = [
     Task {
         name: "ci",
         known: &[],
@@ -174,6 +174,21 @@ pub(crate) const TASKS: [Task; 19] = [
         read: |given| {
             let settings = compare::Settings::of(given)?;
             Ok(Box::new(move || compare::run(&settings)))
+        },
+    },
+    Task {
+        name: "chart",
+        known: front::Settings::KNOWN,
+        about: &[
+            "speed against accuracy: every method, and one setting of the default at a time, into target/chart (index.html,",
+            "points.csv, pictures); goes on where it was stopped; --quick packs a few points of one scene,",
+            "--data names the folder with bunny.stl, which is left out without,",
+            "--one packs the scene in a file, as the chart has it done in a process of its own,",
+            "--write also writes docs/chart.md",
+        ],
+        read: |given| {
+            let settings = front::Settings::of(given)?;
+            Ok(Box::new(move || front::run(&settings)))
         },
     },
     Task {

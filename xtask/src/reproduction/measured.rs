@@ -15,9 +15,9 @@ use sphpack_packing::Silent;
 use super::interpolation::{Study, study};
 use super::row::{Measure, Setup};
 use crate::figures::variation_near;
+use crate::kept::Kept;
 use crate::selection::Selection;
 use crate::shipped::load;
-use crate::workspace::root;
 
 /// What a packing came to.
 #[derive(Debug, Clone)]
@@ -29,25 +29,24 @@ pub(crate) struct Measured {
     pub(crate) picture: PathBuf,
 }
 
+/// What a measured packing depends on, beside what packs.
+const OWN: [&str; 5] = [
+    "xtask/src/figures.rs",
+    "xtask/src/shipped.rs",
+    "xtask/src/reproduction/interpolation.rs",
+    "xtask/src/reproduction/measured.rs",
+    "xtask/src/reproduction/row.rs",
+];
+
 /// Measured packings in a folder.
 pub(crate) struct Store {
-    folder: PathBuf,
-    /// Tells the code that packs and measures, and the scenes, from others.
-    code: u64,
+    kept: Kept,
 }
 
 impl Store {
     /// The store in `folder`, which is made where it is not there.
     pub(crate) fn open(folder: &Path) -> Result<Self, String> {
-        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-        let mut code = FNV;
-        for room in CODE {
-            digest(&root().join(room), &mut code)?;
-        }
-        Ok(Self {
-            folder: folder.to_owned(),
-            code,
-        })
+        Kept::open(folder, &OWN).map(|kept| Self { kept })
     }
 
     /// The figures of a setup, from the store or from a packing; `None` where its body's file is not there. A packing that
@@ -58,9 +57,9 @@ impl Store {
         interpolates: bool,
         selection: &Selection,
     ) -> Result<Option<Measured>, String> {
-        let key = hash(self.code, format!("{setup:?}").as_bytes());
-        let entry = self.folder.join(format!("{key:016x}.json"));
-        let picture = self.folder.join(format!("{key:016x}.png"));
+        let of = format!("{setup:?}");
+        let entry = self.kept.path(&of, "json");
+        let picture = self.kept.path(&of, "png");
         if let Some(kept) = read(&entry, &picture)
             && (!interpolates || kept.figures.keys().any(|measure| measure.interpolates()))
         {
@@ -194,47 +193,4 @@ pub(crate) fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
     draw(&subject, PictureFormat::Png, &mut bytes)
         .and_then(|()| fs::write(path, bytes))
         .map_err(|error| format!("{}: {error}", path.display()))
-}
-
-/// What a measured packing depends on.
-const CODE: [&str; 14] = [
-    "Cargo.lock",
-    "scenes",
-    "kernels/src",
-    "neighbors/src",
-    "pairs/src",
-    "geometry/src",
-    "packing/src",
-    "separation/src",
-    "cli/src",
-    "xtask/src/figures.rs",
-    "xtask/src/shipped.rs",
-    "xtask/src/reproduction/interpolation.rs",
-    "xtask/src/reproduction/measured.rs",
-    "xtask/src/reproduction/row.rs",
-];
-
-/// Takes a file, or all files of a folder in the order of their names, into a hash.
-fn digest(path: &Path, into: &mut u64) -> Result<(), String> {
-    let fail = |error: std::io::Error| format!("{}: {error}", path.display());
-    if path.is_dir() {
-        let entries = fs::read_dir(path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
-        let mut inside: Vec<PathBuf> = (entries.map_err(fail)?.iter())
-            .map(fs::DirEntry::path)
-            .collect();
-        inside.sort_unstable();
-        return inside.iter().try_for_each(|path| digest(path, into));
-    }
-    *into = hash(*into, &fs::read(path).map_err(fail)?);
-    Ok(())
-}
-
-/// FNV-1a's beginning.
-const FNV: u64 = 0xcbf2_9ce4_8422_2325;
-
-/// FNV-1a: good enough to tell versions and setups apart.
-fn hash(begin: u64, bytes: &[u8]) -> u64 {
-    bytes.iter().fold(begin, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }

@@ -15,6 +15,7 @@ use crate::arguments::Arguments;
 use crate::selection::Selection;
 use crate::workspace::root;
 use claims::{FIGURES, KNOWN_MISSES};
+pub(crate) use interpolation::study;
 pub(crate) use measured::paint;
 use measured::{Measured, Store};
 use page::{Result as Ended, Verdict, figure, published};

@@ -30,6 +30,7 @@ use crate::workspace::root;
 use case::Case;
 use judge::Judgement;
 use table::Outcome;
+pub(crate) use trial::processor_seconds;
 
 /// Scenes at a time.
 const MOST_WORKERS: usize = 2;

@@ -166,8 +166,8 @@ fn peak_bytes(process: &Path) -> u64 {
         * 1024
 }
 
-/// 0 where the system does not tell.
-pub(super) fn processor_seconds(process: &Path) -> f64 {
+/// Processor time of a process, by its folder in /proc; 0 where the system does not tell.
+pub(crate) fn processor_seconds(process: &Path) -> f64 {
     let text = fs::read_to_string(process.join("stat")).unwrap_or_default();
     // The name, in brackets, may hold anything.
     let fields: Vec<&str> = text

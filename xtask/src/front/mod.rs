@@ -1,0 +1,129 @@
+//! Speed charted against accuracy: every method, and one setting of the default at a time.
+
+mod advice;
+mod errors;
+mod figures;
+mod judged;
+mod judges;
+mod labels;
+mod one;
+mod packings;
+mod page;
+mod panel;
+mod pareto;
+mod points;
+mod shapes;
+mod sheet;
+mod slope;
+mod table;
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use crate::arguments::Arguments;
+use crate::selection::Selection;
+use crate::workspace::root;
+use figures::Ended;
+use packings::Packings;
+use points::{Place, Point, places, points};
+use sheet::Sheet;
+
+/// What to run.
+#[derive(Debug, Default)]
+pub(crate) struct Settings {
+    selection: Selection,
+    /// Pack the scene of this file alone, as the chart has its children do; the result goes beside it.
+    one: Option<PathBuf>,
+}
+
+impl Settings {
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &[
+        "--quick",
+        "--only SCENE",
+        "--data DIR",
+        "--write",
+        "--one FILE",
+    ];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        Ok(Self {
+            selection: Selection::of(arguments)?,
+            one: arguments.path("--one"),
+        })
+    }
+
+    /// The packings that CI makes.
+    pub(crate) fn quick() -> Self {
+        Self {
+            selection: Selection {
+                quick: true,
+                ..Selection::default()
+            },
+            one: None,
+        }
+    }
+}
+
+/// Charts the scenes that are asked for; what was measured before by the same code is not packed again. Fails where a method beats the default
+/// in evaluations and density at once.
+pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+    if let Some(file) = &settings.one {
+        return one::run(file, &file.with_extension("json"));
+    }
+    let selection = &settings.selection;
+    let folder = root().join("target/chart");
+    let packings = Packings::open(&folder.join("packings"))?;
+    let mut asked: Vec<(Place, Vec<Point>)> = Vec::new();
+    for place in places(selection) {
+        let points = points(place, selection)?;
+        if !points.is_empty() {
+            asked.push((place, points));
+        }
+    }
+    if asked.is_empty() {
+        return Err("no scene is asked for, or its body's file is not there".to_owned());
+    }
+    let total: usize = asked.iter().map(|(_, points)| points.len()).sum();
+    let (begin, mut done) = (Instant::now(), 0);
+    let names: Vec<&str> = asked.iter().map(|(place, _)| place.scene).collect();
+    let mut sheets = Vec::new();
+    for (place, points) in asked {
+        let mut sheet = Sheet {
+            place,
+            measured: Vec::new(),
+            left_out: Vec::new(),
+        };
+        for point in points {
+            done += 1;
+            let was_known = packings.known(&point.scene).is_some();
+            if !was_known {
+                eprintln!(
+                    "── {done} of {total}: {}, {}, after {:.0} s",
+                    place.scene,
+                    point.name,
+                    begin.elapsed().as_secs_f64()
+                );
+            }
+            match packings.measured(&point.scene)? {
+                Ended::Measured(figures) => sheet.measured.push((point, *figures)),
+                Ended::LeftOut(why) => sheet.left_out.push((point.name, why)),
+            }
+        }
+        sheets.push(sheet);
+        // After each scene: whoever stops here has what there is.
+        let missing = &names[sheets.len()..];
+        page::write(&folder, &sheets, missing)?;
+        if selection.write {
+            page::document(&root().join("docs"), &sheets, missing)?;
+        }
+    }
+    eprintln!("── {}", folder.join("index.html").display());
+    print!("{}", advice::table(&sheets).markdown());
+    let beaten = advice::beaten(&sheets);
+    if beaten.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("the default is beaten: {}", beaten.join("; ")))
+    }
+}
