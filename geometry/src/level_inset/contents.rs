@@ -11,6 +11,9 @@ const LOOK: usize = 12;
 /// Steps of the climb to the deepest place.
 const CLIMB: usize = 200;
 
+/// Parts of the depth by which a body is to be deeper: of a plate as thick as two depths rounding alone would tell.
+const DEEPER: f64 = 1e-6;
+
 /// Whether the body has a point deeper than `depth`.
 ///
 /// Tries, from a coarse grid, the straight way down from the nearest surface point, which succeeds wherever the body
@@ -22,7 +25,7 @@ pub(super) fn reaches<const D: usize>(surface: &dyn Surface<D>, depth: f64) -> b
     if 2.0 * depth >= shortest {
         return false;
     }
-    let enough = -depth * (1.0 - 1e-6);
+    let enough = -depth * (1.0 + 0.5 * DEEPER);
     let mut deepest: Vec<(f64, [f64; D])> = Vec::new();
     for cell in 0..LOOK.pow(D as u32) {
         let place = place_of(cell, [LOOK; D]);
@@ -30,8 +33,8 @@ pub(super) fn reaches<const D: usize>(surface: &dyn Surface<D>, depth: f64) -> b
             bounds.min[k] + size[k] * (place[k] as f64 + 0.5) / LOOK as f64
         });
         let hit = surface.closest(p);
-        let below = point::add_scaled(hit.point, -depth * (1.0 + 1e-6), gradient(p, &hit));
-        if hit.distance < -depth || surface.closest(below).distance < enough {
+        let below = point::add_scaled(hit.point, -depth * (1.0 + DEEPER), gradient(p, &hit));
+        if hit.distance < enough || surface.closest(below).distance < enough {
             return true;
         }
         deepest.push((hit.distance, p));
@@ -40,7 +43,7 @@ pub(super) fn reaches<const D: usize>(surface: &dyn Surface<D>, depth: f64) -> b
     deepest
         .iter()
         .take(8)
-        .any(|&(distance, p)| climb(surface, p, distance, size) < -depth)
+        .any(|&(distance, p)| climb(surface, p, distance, size) < enough)
 }
 
 /// The least signed distance found by walking from `p` along the axes.

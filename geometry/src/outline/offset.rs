@@ -18,7 +18,8 @@ pub const MITRE_LIMIT: f64 = 4.0;
 /// Points nearer than this, in parts of the outline's size, are one: the engine's crossings of nearly parallel sides.
 pub(super) const MERGE: f64 = 1e-11;
 
-/// Pieces with less area than this × offset² are dropped: no particle fits.
+/// Pieces with less area than this × offset², or narrower than this × offset, are dropped: no particle fits, and of a strip as
+/// thick as two offsets rounding alone would leave or take its two sides.
 const CRUMB: f64 = 1e-6;
 
 impl Outline {
@@ -63,17 +64,17 @@ impl Outline {
         }
         if simple {
             let candidate = Self::assemble(raw.clone());
-            if candidate.area > 0.0 && first_meeting(&candidate).is_none() {
+            let counts = candidate.area > 0.0 && !is_crumb(&candidate.points, distance);
+            if counts && first_meeting(&candidate).is_none() {
                 return Ok(candidate);
             }
         }
         let merge = MERGE * self.extent();
-        let crumb = CRUMB * distance * distance;
         let rest = self.cut_or_grown(distance)?;
         let loops: Vec<Vec<[f64; 2]>> = rest
             .into_iter()
             .map(|points| tidy(points, merge))
-            .filter(|points| points.len() >= 3 && signed_area(points).abs() > crumb)
+            .filter(|points| points.len() >= 3 && !is_crumb(points, distance))
             .collect();
         if loops.is_empty() {
             return Err(vanished);
@@ -139,6 +140,15 @@ impl Outline {
             }
         }
     }
+}
+
+/// Whether a loop is too small or too narrow to count beside an offset.
+fn is_crumb(points: &[[f64; 2]], distance: f64) -> bool {
+    let area = signed_area(points).abs();
+    let ends = points.iter().zip(points.iter().cycle().skip(1));
+    let around: f64 = ends.map(|(&a, &b)| point::distance(a, b)).sum();
+    let least = CRUMB * distance.abs();
+    area <= least * distance.abs() || 2.0 * area <= least * around
 }
 
 /// What becomes of a corner when the sides beside it are moved.

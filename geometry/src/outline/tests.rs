@@ -467,3 +467,29 @@ fn many_loops_nest() {
     let one = 0.64 - 0.36 + 0.04;
     assert!((outline.volume() / (f64::from(count * count) * one) - 1.0).abs() < 1e-9);
 }
+
+#[test]
+fn strips_as_thick_as_two_depths_vanish_at_every_angle() {
+    for n in 0..60 {
+        let (sin, cos) = (0.11 * f64::from(n)).sin_cos();
+        let strip = |thick: f64| {
+            let points = [[0.0, 0.0], [1.1, 0.0], [1.1, thick], [0.0, thick]];
+            let turned = points.map(|[x, y]| [0.3 + x * cos - y * sin, 0.7 + x * sin + y * cos]);
+            Outline::new(vec![turned.to_vec()]).unwrap()
+        };
+        let thick = 0.05;
+        let vanishes = |depth: f64| {
+            matches!(
+                strip(thick).offset(-depth),
+                Err(GeometryError::Inset(InsetError::Vanished { .. }))
+            )
+        };
+        assert!(vanishes(0.5 * thick), "{n}");
+        assert!(vanishes(0.5 * thick * (1.0 - 1e-8)), "{n}");
+        let left = strip(thick).offset(-0.5 * thick * (1.0 - 1e-4)).unwrap();
+        assert!(
+            (left.area / (1e-4 * thick * 1.05) - 1.0).abs() < 1e-3,
+            "{n}"
+        );
+    }
+}
