@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde_json::{Value, json};
-use sphpack::picture::{PictureFormat, Subject, draw};
+use sphpack::picture::{self, PictureFormat, draw};
 use sphpack::{Options, Outcome, Packing, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::point;
@@ -14,6 +14,8 @@ use sphpack_packing::Silent;
 
 use super::interpolation::{Study, study};
 use super::row::{Measure, Setup};
+use super::subject::Subject;
+use super::trials::Trial;
 use crate::figures::variation_near;
 use crate::selection::Selection;
 use crate::shipped::load;
@@ -23,10 +25,10 @@ use crate::workspace::root;
 #[derive(Debug, Clone)]
 pub(crate) struct Measured {
     pub(crate) figures: BTreeMap<Measure, f64>,
-    /// Whether it came to rest.
+    /// Whether it came to rest; a trial goes on for as long as it is told, and is over then.
     pub(crate) is_at_rest: bool,
-    /// Its picture, PNG.
-    pub(crate) picture: PathBuf,
+    /// A packing's picture, PNG.
+    pub(crate) picture: Option<PathBuf>,
 }
 
 /// Measured packings in a folder.
@@ -34,6 +36,8 @@ pub(crate) struct Store {
     folder: PathBuf,
     /// Tells the code that packs and measures, and the scenes, from others.
     code: u64,
+    /// The same with that of the trials.
+    trials: u64,
 }
 
 impl Store {
@@ -44,15 +48,49 @@ impl Store {
         for room in CODE {
             digest(&root().join(room), &mut code)?;
         }
+        let mut trials = code;
+        digest(&root().join(TRIALS), &mut trials)?;
         Ok(Self {
             folder: folder.to_owned(),
             code,
+            trials,
         })
     }
 
-    /// The figures of a setup, from the store or from a packing; `None` where its body's file is not there. A packing that
+    /// The figures of a subject, from the store or measured; `None` where its body's file is not there. A packing that
     /// was measured without the interpolation is packed again where that is asked for.
     pub(crate) fn measured(
+        &self,
+        subject: &Subject,
+        interpolates: bool,
+        selection: &Selection,
+    ) -> Result<Option<Measured>, String> {
+        match subject {
+            Subject::Packing(setup) => self.packed(setup, interpolates, selection),
+            Subject::Trial(trial) => self.tried(trial),
+        }
+    }
+
+    fn tried(&self, trial: &Trial) -> Result<Option<Measured>, String> {
+        let key = hash(self.trials, format!("{trial:?}").as_bytes());
+        let entry = self.folder.join(format!("{key:016x}.json"));
+        if let Some(kept) = read(&entry, None) {
+            return Ok(Some(kept));
+        }
+        eprintln!("   trying {}", trial.words());
+        let start = Instant::now();
+        let mut figures = trial.figures();
+        figures.insert(Measure::Seconds, start.elapsed().as_secs_f64());
+        let measured = Measured {
+            figures,
+            is_at_rest: true,
+            picture: None,
+        };
+        measured.write(&entry)?;
+        Ok(Some(measured))
+    }
+
+    fn packed(
         &self,
         setup: &Setup,
         interpolates: bool,
@@ -61,7 +99,7 @@ impl Store {
         let key = hash(self.code, format!("{setup:?}").as_bytes());
         let entry = self.folder.join(format!("{key:016x}.json"));
         let picture = self.folder.join(format!("{key:016x}.png"));
-        if let Some(kept) = read(&entry, &picture)
+        if let Some(kept) = read(&entry, Some(&picture))
             && (!interpolates || kept.figures.keys().any(|measure| measure.interpolates()))
         {
             return Ok(Some(kept));
@@ -92,9 +130,9 @@ impl Store {
         let measured = Measured {
             figures,
             is_at_rest: outcome.report.converged,
-            picture,
+            picture: Some(picture.clone()),
         };
-        paint(&outcome, &measured.picture)?;
+        paint(&outcome, &picture)?;
         measured.write(&entry)?;
         Ok(Some(measured))
     }
@@ -110,16 +148,16 @@ impl Measured {
     }
 }
 
-fn read(entry: &Path, picture: &Path) -> Option<Measured> {
+fn read(entry: &Path, picture: Option<&Path>) -> Option<Measured> {
     let kept: Value = serde_json::from_slice(&fs::read(entry).ok()?).ok()?;
     let all = kept.get("figures")?.as_object()?;
-    picture.is_file().then_some(())?;
+    picture.is_none_or(Path::is_file).then_some(())?;
     Some(Measured {
         figures: (Measure::ALL.into_iter())
             .filter_map(|measure| Some((measure, all.get(measure.name())?.as_f64()?)))
             .collect(),
         is_at_rest: kept.get("at_rest")?.as_bool()?,
-        picture: picture.to_owned(),
+        picture: picture.map(Path::to_owned),
     })
 }
 
@@ -182,7 +220,7 @@ pub(crate) fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
             [bounds.min, bounds.max]
         }
     };
-    let subject = Subject {
+    let subject = picture::Subject {
         name: &outcome.report.scene.name,
         table: &outcome.table,
         loops: &outcome.loops,
@@ -213,6 +251,9 @@ const CODE: [&str; 14] = [
     "xtask/src/reproduction/measured.rs",
     "xtask/src/reproduction/row.rs",
 ];
+
+/// What trials depend on besides.
+const TRIALS: &str = "xtask/src/reproduction/trials";
 
 /// Takes a file, or all files of a folder in the order of their names, into a hash.
 fn digest(path: &Path, into: &mut u64) -> Result<(), String> {

@@ -6,6 +6,8 @@ mod measured;
 mod page;
 mod row;
 mod rows;
+mod subject;
+mod trials;
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -92,9 +94,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         eprintln!("── {} of {}: {}", number + 1, asked.len(), row.id());
         let interpolates = (asked.iter()).any(|other| {
             other.measure.interpolates()
-                && (other.setup == row.setup || other.over == Some(row.setup))
+                && (other.subject == row.subject || other.over == Some(row.subject))
         });
-        let own = store.measured(&row.setup, interpolates, &settings.selection)?;
+        let own = store.measured(&row.subject, interpolates, &settings.selection)?;
         let over = match &row.over {
             None => None,
             Some(over) => store.measured(over, row.measure.interpolates(), &settings.selection)?,
@@ -148,15 +150,13 @@ fn judged(row: &Row, own: Option<Measured>, over: Option<Measured>) -> Ended {
         ours,
         verdict,
         seconds,
-        picture: own.map(|own| own.picture),
+        picture: own.and_then(|own| own.picture),
     }
 }
 
 fn line(ended: &Ended) -> String {
     let row = &ended.row;
-    let over = (row.over).map_or_else(String::new, |over| {
-        format!("; {} over it", over.method_name())
-    });
+    let over = (row.over).map_or_else(String::new, |over| format!("; {} over it", over.short()));
     let mut line = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -164,7 +164,7 @@ fn line(ended: &Ended) -> String {
         "| {} | {} | {}{over} | {} | {} | {} | {} | {:.1} |",
         row.paper,
         row.figure,
-        row.setup.words(),
+        row.subject.words(),
         row.measure.name().replace('|', "\\|"),
         published(row),
         ended.ours.map_or_else(|| "–".to_owned(), figure),

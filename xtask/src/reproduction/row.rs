@@ -2,6 +2,8 @@
 
 use sphpack::scene::{Finish, Method};
 
+use super::subject::Subject;
+
 /// How a scene is packed and judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Setup {
@@ -122,6 +124,12 @@ pub(crate) enum Measure {
     Iterations,
     /// Seconds, from scene to figures.
     Seconds,
+    /// The farthest that a particle ends from the nearest site of its lattice, in ∆s.
+    FromSite,
+    /// max |Γ − Γ of the perfect lattice| at the end.
+    DensityLeft,
+    /// The same over what it was at the start.
+    DensityLeftOverStart,
     /// Error of an interpolated function, as Negi & Ramachandran (2021) judge: eq. 33, beside a regular mesh's sum at its own
     /// sites.
     FunctionAsPrinted,
@@ -138,7 +146,7 @@ pub(crate) enum Measure {
 }
 
 impl Measure {
-    pub(crate) const ALL: [Self; 15] = [
+    pub(crate) const ALL: [Self; 18] = [
         Self::Variation,
         Self::VariationNear,
         Self::Linf,
@@ -148,6 +156,9 @@ impl Measure {
         Self::OnSurface,
         Self::Iterations,
         Self::Seconds,
+        Self::FromSite,
+        Self::DensityLeft,
+        Self::DensityLeftOverStart,
         Self::FunctionAsPrinted,
         Self::DerivativeAsPrinted,
         Self::FunctionOffSites,
@@ -168,6 +179,9 @@ impl Measure {
             Self::OnSurface => "particles on the surface / N_s",
             Self::Iterations => "iterations",
             Self::Seconds => "seconds",
+            Self::FromSite => "farthest from a site at the end / ∆s",
+            Self::DensityLeft => "L∞(Γ − the lattice's) at the end",
+            Self::DensityLeftOverStart => "L∞(Γ − the lattice's), end / start",
             Self::FunctionAsPrinted => "L2 of the function, as printed",
             Self::DerivativeAsPrinted => "L2 of the derivative, as printed",
             Self::FunctionOffSites => "L2 of the function off the sites / lattice's",
@@ -210,9 +224,9 @@ pub(crate) struct Row {
     pub(crate) paper: &'static str,
     /// "fig12", "table1".
     pub(crate) figure: &'static str,
-    pub(crate) setup: Setup,
-    /// The row's number is this setup's figure over that of `setup`.
-    pub(crate) over: Option<Setup>,
+    pub(crate) subject: Subject,
+    /// The row's number is this one's figure over that of `subject`.
+    pub(crate) over: Option<Subject>,
     pub(crate) measure: Measure,
     pub(crate) published: Published,
     pub(crate) bar: Bar,
@@ -223,17 +237,13 @@ pub(crate) struct Row {
 impl Row {
     /// What tells it from all others.
     pub(crate) fn id(&self) -> String {
-        let over = (self.over).map_or_else(String::new, |o| format!(" under {}", o.method_name()));
-        let tolerance = if self.setup.tolerance == 1e-4 {
-            String::new()
-        } else {
-            format!(" to {:e}", self.setup.tolerance)
-        };
+        let over = (self.over).map_or_else(String::new, |o| format!(" under {}", o.short()));
         format!(
-            "{} {}: {}{tolerance}{over}: {}",
+            "{} {}: {}{}{over}: {}",
             self.paper,
             self.figure,
-            self.setup.words(),
+            self.subject.words(),
+            self.subject.remark(),
             self.measure.name()
         )
     }

@@ -2,11 +2,14 @@
 //!
 //! Numbers are from the papers' texts and tables; what is only drawn there stands as words.
 
+mod displaced;
+
 use sphpack::scene::Method;
 
 use crate::shipped::iterations_together;
 
 use super::row::{Bar, Measure, Published, Row, Setup};
+use super::subject::Subject;
 
 /// h/∆s at which Negi & Ramachandran (2021), §4.1 judge a spacing: 1.0 at 0.1, rising in a line to 1.5 at 0.02.
 fn h_at(spacing: f64) -> f64 {
@@ -15,11 +18,11 @@ fn h_at(spacing: f64) -> f64 {
 
 const PICTURE: Published = Published::Words("a picture");
 
-fn row(figure: &'static str, setup: Setup, measure: Measure) -> Row {
+fn row(figure: &'static str, subject: impl Into<Subject>, measure: Measure) -> Row {
     Row {
         paper: "001",
         figure,
-        setup,
+        subject: subject.into(),
         over: None,
         measure,
         published: PICTURE,
@@ -68,9 +71,9 @@ impl Row {
         }
     }
 
-    fn under(self, over: Setup) -> Self {
+    fn under(self, over: impl Into<Subject>) -> Self {
         Self {
-            over: Some(over),
+            over: Some(over.into()),
             ..self
         }
     }
@@ -79,6 +82,7 @@ impl Row {
 /// All rows, paper by paper.
 pub(crate) fn rows() -> Vec<Row> {
     let mut all = Vec::new();
+    displaced::displaced(&mut all);
     cylinder(&mut all);
     zigzag(&mut all);
     starfish_and_airfoil(&mut all);
