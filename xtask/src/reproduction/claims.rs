@@ -51,11 +51,10 @@ pub(crate) const FIGURES: [Figure; 25] = [
         "fig7",
         "a displaced particle among lattices, with repulsion and without",
     ),
-    missing(
+    shown(
         "001",
         "fig8",
-        "how often particles are put back onto the surface",
-        ELSEWHERE,
+        "how often free particles are captured by the surface; ours never leave it, so that is all that the interval is of",
     ),
     shown(
         "001",

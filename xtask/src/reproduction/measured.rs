@@ -79,7 +79,7 @@ impl Store {
         }
         eprintln!("   trying {}", trial.words());
         let start = Instant::now();
-        let mut figures = trial.figures();
+        let mut figures = trial.figures()?;
         figures.insert(Measure::Seconds, start.elapsed().as_secs_f64());
         let measured = Measured {
             figures,
@@ -178,6 +178,7 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
         (Measure::VariationNear, near),
         (Measure::Linf, report.density.linf),
         (Measure::Residual, report.residual.max),
+        (Measure::ResidualRms, report.residual.rms),
         (Measure::OffSurface, off),
         (Measure::ClosestPair, report.closest_pair_over_spacing),
         (

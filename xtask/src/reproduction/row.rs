@@ -130,6 +130,8 @@ pub(crate) enum Measure {
     DensityLeft,
     /// The same over what it was at the start.
     DensityLeftOverStart,
+    /// Root mean square of h |∇Γ| over the free particles.
+    ResidualRms,
     /// Error of an interpolated function, as Negi & Ramachandran (2021) judge: eq. 33, beside a regular mesh's sum at its own
     /// sites.
     FunctionAsPrinted,
@@ -146,7 +148,7 @@ pub(crate) enum Measure {
 }
 
 impl Measure {
-    pub(crate) const ALL: [Self; 18] = [
+    pub(crate) const ALL: [Self; 19] = [
         Self::Variation,
         Self::VariationNear,
         Self::Linf,
@@ -159,6 +161,7 @@ impl Measure {
         Self::FromSite,
         Self::DensityLeft,
         Self::DensityLeftOverStart,
+        Self::ResidualRms,
         Self::FunctionAsPrinted,
         Self::DerivativeAsPrinted,
         Self::FunctionOffSites,
@@ -182,6 +185,7 @@ impl Measure {
             Self::FromSite => "farthest from a site at the end / ∆s",
             Self::DensityLeft => "L∞(Γ − the lattice's) at the end",
             Self::DensityLeftOverStart => "L∞(Γ − the lattice's), end / start",
+            Self::ResidualRms => "rms of h|∇Γ|",
             Self::FunctionAsPrinted => "L2 of the function, as printed",
             Self::DerivativeAsPrinted => "L2 of the derivative, as printed",
             Self::FunctionOffSites => "L2 of the function off the sites / lattice's",

@@ -2,6 +2,7 @@
 //!
 //! Numbers are from the papers' texts and tables; what is only drawn there stands as words.
 
+mod captured;
 mod displaced;
 
 use sphpack::scene::Method;
@@ -83,6 +84,7 @@ impl Row {
 pub(crate) fn rows() -> Vec<Row> {
     let mut all = Vec::new();
     displaced::displaced(&mut all);
+    captured::captured(&mut all);
     cylinder(&mut all);
     zigzag(&mut all);
     starfish_and_airfoil(&mut all);

@@ -34,6 +34,36 @@ pub(super) fn periodic_gamma<const D: usize>(
     positions.iter().map(of).collect()
 }
 
+/// dW/dr at distance `r`.
+pub(super) fn quintic_slope<const D: usize>(r: f64, h: f64) -> f64 {
+    let part = |reach: f64| (reach - r / h).max(0.0).powi(4);
+    -5.0 / h * sigma::<D>(h) * (part(3.0) - 6.0 * part(2.0) + 15.0 * part(1.0))
+}
+
+/// ∇Γ of the particles `targets`, summed over all.
+pub(super) fn gradients<const D: usize>(
+    positions: &[[f64; D]],
+    volumes: &[f64],
+    targets: &[usize],
+    h: f64,
+) -> Vec<[f64; D]> {
+    let of = |&i: &usize| {
+        let mut sum = [0.0; D];
+        for (q, volume) in positions.iter().zip(volumes) {
+            let way: [f64; D] = std::array::from_fn(|k| positions[i][k] - q[k]);
+            let r = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if r > 0.0 && r < 3.0 * h {
+                let slope = volume * quintic_slope::<D>(r, h) / r;
+                for k in 0..D {
+                    sum[k] += slope * way[k];
+                }
+            }
+        }
+        sum
+    };
+    targets.iter().map(of).collect()
+}
+
 /// The shortest way between images.
 pub(super) fn nearest(way: f64, edge: f64) -> f64 {
     way - edge * (way / edge).round()
@@ -56,6 +86,29 @@ mod tests {
         }
         assert!((plane - 1.0).abs() < 1e-7, "{plane}");
         assert!((space - 1.0).abs() < 1e-7, "{space}");
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_kernel() {
+        for r in [0.3, 1.1, 2.4, 3.5] {
+            let step = 1e-5;
+            let [low, high] = [r - step, r + step].map(|r| quintic::<2>(r, 1.2));
+            let slope = quintic_slope::<2>(r, 1.2);
+            assert!(
+                (slope - 0.5 * (high - low) / step).abs() < 1e-8,
+                "{r}: {slope}"
+            );
+        }
+    }
+
+    /// A pair pushes each other apart along the way between them, the nearer the heavier the other.
+    #[test]
+    fn a_pair_has_opposite_gradients() {
+        let places = [[0.0, 0.0], [0.6, 0.8]];
+        let found = gradients(&places, &[1.0, 2.0], &[0, 1], 1.0);
+        let slope = quintic_slope::<2>(1.0, 1.0);
+        assert!((found[0][0] + 2.0 * slope * 0.6).abs() < 1e-15, "{found:?}");
+        assert!((found[1][1] - slope * 0.8).abs() < 1e-15, "{found:?}");
     }
 
     #[test]

@@ -1,10 +1,12 @@
 //! Trials that need no packed scene, each judged by sums over all pairs that share nothing with the library's.
 
 mod brute;
+mod captured;
 mod displaced;
 
 use std::collections::BTreeMap;
 
+pub(crate) use captured::Captured;
 pub(crate) use displaced::Displaced;
 
 use super::row::Measure;
@@ -14,6 +16,8 @@ use super::row::Measure;
 pub(crate) enum Trial {
     /// A lattice with one particle off its site.
     Displaced(Displaced),
+    /// A cylinder, with another interval between captures.
+    Captured(Captured),
 }
 
 impl From<Displaced> for Trial {
@@ -22,11 +26,18 @@ impl From<Displaced> for Trial {
     }
 }
 
+impl From<Captured> for Trial {
+    fn from(trial: Captured) -> Self {
+        Self::Captured(trial)
+    }
+}
+
 impl Trial {
     /// What it is, in a line.
     pub(crate) fn words(&self) -> String {
         match self {
             Self::Displaced(trial) => trial.words(),
+            Self::Captured(trial) => trial.words(),
         }
     }
 
@@ -34,13 +45,15 @@ impl Trial {
     pub(crate) fn short(&self) -> String {
         match self {
             Self::Displaced(trial) => trial.lattice.name().to_owned(),
+            Self::Captured(trial) => format!("every {} iterations", trial.every),
         }
     }
 
     /// Its figures.
-    pub(crate) fn figures(&self) -> BTreeMap<Measure, f64> {
+    pub(crate) fn figures(&self) -> Result<BTreeMap<Measure, f64>, String> {
         match self {
-            Self::Displaced(trial) => trial.figures(),
+            Self::Displaced(trial) => Ok(trial.figures()),
+            Self::Captured(trial) => trial.figures(),
         }
     }
 }
