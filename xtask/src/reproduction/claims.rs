@@ -27,7 +27,7 @@ const fn missing(
 }
 
 /// What every figure shows, in our words; those without rows say why.
-pub(crate) const FIGURES: [Figure; 25] = [
+pub(crate) const FIGURES: [Figure; 27] = [
     shown(
         "000",
         "fig7",
@@ -96,18 +96,18 @@ pub(crate) const FIGURES: [Figure; 25] = [
         "fluid in a tank with sloping walls comes to rest",
     ),
     shown("002", "fig9", "fluid in a tank with bends comes to rest"),
-    missing(
+    shown("002", "fig11", "a round patch of fluid, before it flows"),
+    shown(
         "002",
-        "fig11",
-        "a disc and a hull's section in a tank",
-        Some("no scene for it yet"),
+        "fig13",
+        "fluid around the section of a ship's hull, before it floats",
     ),
-    missing(
+    shown(
         "003",
         "fig7",
         "a packed airfoil at 5°, its surface found by the divergence of positions",
-        Some("no scene for it yet"),
     ),
+    shown("003", "fig24", "an S, before it turns"),
     missing(
         "004",
         "fig8",

@@ -12,6 +12,7 @@ use sphpack_kernels::KernelKind;
 use sphpack_neighbors::point;
 use sphpack_packing::Silent;
 
+use super::divergence::found;
 use super::interpolation::{Study, study};
 use super::row::{Measure, Setup};
 use super::subject::Subject;
@@ -173,7 +174,7 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
         Packing::Plane(solution) => variation_near(&solution.packed, &solution.fields.gamma),
         Packing::Space(solution) => variation_near(&solution.packed, &solution.fields.gamma),
     };
-    BTreeMap::from([
+    let mut figures = BTreeMap::from([
         (Measure::Variation, report.density.total_variation),
         (Measure::VariationNear, near),
         (Measure::Linf, report.density.linf),
@@ -187,7 +188,14 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
         ),
         (Measure::Iterations, report.iterations as f64),
         (Measure::Seconds, seconds),
-    ])
+    ]);
+    if let Packing::Plane(solution) = &outcome.packing
+        && let Some(found) = found(solution)
+    {
+        figures.insert(Measure::SurfaceMissed, found.missed);
+        figures.insert(Measure::SurfaceFalse, found.false_ones);
+    }
+    figures
 }
 
 fn interpolated(outcome: &Outcome, h_over_spacing: f64) -> Vec<(Measure, f64)> {
@@ -236,7 +244,7 @@ pub(crate) fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
 }
 
 /// What a measured packing depends on.
-const CODE: [&str; 14] = [
+const CODE: [&str; 15] = [
     "Cargo.lock",
     "scenes",
     "kernels/src",
@@ -248,6 +256,7 @@ const CODE: [&str; 14] = [
     "cli/src",
     "xtask/src/figures.rs",
     "xtask/src/shipped.rs",
+    "xtask/src/reproduction/divergence.rs",
     "xtask/src/reproduction/interpolation.rs",
     "xtask/src/reproduction/measured.rs",
     "xtask/src/reproduction/row.rs",

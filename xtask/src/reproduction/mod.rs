@@ -1,6 +1,7 @@
 //! What the papers print about packing, beside what this program gets.
 
 mod claims;
+mod divergence;
 mod interpolation;
 mod measured;
 mod page;

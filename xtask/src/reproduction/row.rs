@@ -82,6 +82,7 @@ impl Setup {
             (Method::Balanced, Finish::Consistent) => "balanced consistent".to_owned(),
             (Method::Balanced, Finish::Calm) => "balanced calm".to_owned(),
             (Method::Balanced, Finish::Both) => "balanced both".to_owned(),
+            (method, _) if self.patience == 0 => format!("{} before it moves", method.name()),
             (method, _) => method.name().to_owned(),
         }
     }
@@ -132,6 +133,10 @@ pub(crate) enum Measure {
     DensityLeftOverStart,
     /// Root mean square of h |∇Γ| over the free particles.
     ResidualRms,
+    /// Surface particles that ∇·r < d − 0.625 does not find, over all of them.
+    SurfaceMissed,
+    /// Other particles that it finds, over the surface particles.
+    SurfaceFalse,
     /// Error of an interpolated function, as Negi & Ramachandran (2021) judge: eq. 33, beside a regular mesh's sum at its own
     /// sites.
     FunctionAsPrinted,
@@ -148,7 +153,7 @@ pub(crate) enum Measure {
 }
 
 impl Measure {
-    pub(crate) const ALL: [Self; 19] = [
+    pub(crate) const ALL: [Self; 21] = [
         Self::Variation,
         Self::VariationNear,
         Self::Linf,
@@ -162,6 +167,8 @@ impl Measure {
         Self::DensityLeft,
         Self::DensityLeftOverStart,
         Self::ResidualRms,
+        Self::SurfaceMissed,
+        Self::SurfaceFalse,
         Self::FunctionAsPrinted,
         Self::DerivativeAsPrinted,
         Self::FunctionOffSites,
@@ -186,6 +193,8 @@ impl Measure {
             Self::DensityLeft => "L∞(Γ − the lattice's) at the end",
             Self::DensityLeftOverStart => "L∞(Γ − the lattice's), end / start",
             Self::ResidualRms => "rms of h|∇Γ|",
+            Self::SurfaceMissed => "surface particles not found by ∇·r < d − 0.625, part",
+            Self::SurfaceFalse => "others found by ∇·r < d − 0.625, per surface particle",
             Self::FunctionAsPrinted => "L2 of the function, as printed",
             Self::DerivativeAsPrinted => "L2 of the derivative, as printed",
             Self::FunctionOffSites => "L2 of the function off the sites / lattice's",

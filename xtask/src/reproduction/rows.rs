@@ -4,6 +4,8 @@
 
 mod captured;
 mod displaced;
+mod fluids;
+mod moving_bodies;
 
 use sphpack::scene::Method;
 
@@ -91,6 +93,8 @@ pub(crate) fn rows() -> Vec<Row> {
     space(&mut all);
     first_version(&mut all);
     tanks(&mut all);
+    fluids::fluids(&mut all);
+    moving_bodies::moving_bodies(&mut all);
     relaxation(&mut all);
     all
 }
