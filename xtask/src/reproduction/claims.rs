@@ -27,7 +27,7 @@ const fn missing(
 }
 
 /// What every figure shows, in our words; those without rows say why.
-pub(crate) const FIGURES: [Figure; 27] = [
+pub(crate) const FIGURES: [Figure; 29] = [
     shown(
         "000",
         "fig7",
@@ -39,6 +39,11 @@ pub(crate) const FIGURES: [Figure; 27] = [
         "a cylinder: a clipped lattice, triangles, and packed particles",
     ),
     shown("000", "fig12", "an airfoil, likewise"),
+    shown(
+        "000",
+        "sec2.7",
+        "which particles are inside: by signed angles in the plane, by rays in space",
+    ),
     missing("000", "fig13", "flow past a cylinder", FLOW),
     missing(
         "001",
@@ -50,6 +55,11 @@ pub(crate) const FIGURES: [Figure; 27] = [
         "001",
         "fig7",
         "a displaced particle among lattices, with repulsion and without",
+    ),
+    shown(
+        "001",
+        "sec3.1.7",
+        "which particles are inside: by a flood from the surface; with it, how long neighbours take by tree and by cells",
     ),
     shown(
         "001",

@@ -68,11 +68,11 @@ impl Store {
     ) -> Result<Option<Measured>, String> {
         match subject {
             Subject::Packing(setup) => self.packed(setup, interpolates, selection),
-            Subject::Trial(trial) => self.tried(trial),
+            Subject::Trial(trial) => self.tried(trial, selection),
         }
     }
 
-    fn tried(&self, trial: &Trial) -> Result<Option<Measured>, String> {
+    fn tried(&self, trial: &Trial, selection: &Selection) -> Result<Option<Measured>, String> {
         let key = hash(self.trials, format!("{trial:?}").as_bytes());
         let entry = self.folder.join(format!("{key:016x}.json"));
         if let Some(kept) = read(&entry, None) {
@@ -80,7 +80,9 @@ impl Store {
         }
         eprintln!("   trying {}", trial.words());
         let start = Instant::now();
-        let mut figures = trial.figures()?;
+        let Some(mut figures) = trial.figures(selection)? else {
+            return Ok(None);
+        };
         figures.insert(Measure::Seconds, start.elapsed().as_secs_f64());
         let measured = Measured {
             figures,

@@ -137,6 +137,28 @@ pub(crate) enum Measure {
     SurfaceMissed,
     /// Other particles that it finds, over the surface particles.
     SurfaceFalse,
+    /// Points that the library's inside test puts on the wrong side.
+    WrongByTest,
+    /// The same by the flood.
+    WrongByFlood,
+    /// The same by the sum of signed angles.
+    WrongByAngles,
+    /// The same by the number of triangles that a ray passes.
+    WrongByRays,
+    /// Points of which tree and cells count other neighbours.
+    NeighboursDiffer,
+    /// Seconds of all inside tests.
+    SecondsByTest,
+    /// Seconds of the flood.
+    SecondsByFlood,
+    /// Seconds of all signed angles.
+    SecondsByAngles,
+    /// Seconds of all rays.
+    SecondsByRays,
+    /// Seconds to build a kd-tree and find everybody's neighbours in it.
+    SecondsByTree,
+    /// The same with a cell list.
+    SecondsByCells,
     /// Error of an interpolated function, as Negi & Ramachandran (2021) judge: eq. 33, beside a regular mesh's sum at its own
     /// sites.
     FunctionAsPrinted,
@@ -153,7 +175,7 @@ pub(crate) enum Measure {
 }
 
 impl Measure {
-    pub(crate) const ALL: [Self; 21] = [
+    pub(crate) const ALL: [Self; 32] = [
         Self::Variation,
         Self::VariationNear,
         Self::Linf,
@@ -169,6 +191,17 @@ impl Measure {
         Self::ResidualRms,
         Self::SurfaceMissed,
         Self::SurfaceFalse,
+        Self::WrongByTest,
+        Self::WrongByFlood,
+        Self::WrongByAngles,
+        Self::WrongByRays,
+        Self::NeighboursDiffer,
+        Self::SecondsByTest,
+        Self::SecondsByFlood,
+        Self::SecondsByAngles,
+        Self::SecondsByRays,
+        Self::SecondsByTree,
+        Self::SecondsByCells,
         Self::FunctionAsPrinted,
         Self::DerivativeAsPrinted,
         Self::FunctionOffSites,
@@ -195,6 +228,17 @@ impl Measure {
             Self::ResidualRms => "rms of h|∇Γ|",
             Self::SurfaceMissed => "surface particles not found by ∇·r < d − 0.625, part",
             Self::SurfaceFalse => "others found by ∇·r < d − 0.625, per surface particle",
+            Self::WrongByTest => "points on the wrong side: inside test",
+            Self::WrongByFlood => "points on the wrong side: flood",
+            Self::WrongByAngles => "points on the wrong side: signed angles",
+            Self::WrongByRays => "points on the wrong side: rays",
+            Self::NeighboursDiffer => "points with other neighbours by kd-tree than by cells",
+            Self::SecondsByTest => "seconds: inside test",
+            Self::SecondsByFlood => "seconds: flood",
+            Self::SecondsByAngles => "seconds: signed angles",
+            Self::SecondsByRays => "seconds: rays",
+            Self::SecondsByTree => "seconds: kd-tree, all neighbours",
+            Self::SecondsByCells => "seconds: cell list, all neighbours",
             Self::FunctionAsPrinted => "L2 of the function, as printed",
             Self::DerivativeAsPrinted => "L2 of the derivative, as printed",
             Self::FunctionOffSites => "L2 of the function off the sites / lattice's",

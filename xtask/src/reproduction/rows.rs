@@ -6,6 +6,7 @@ mod captured;
 mod displaced;
 mod fluids;
 mod moving_bodies;
+mod separated;
 
 use sphpack::scene::Method;
 
@@ -95,6 +96,7 @@ pub(crate) fn rows() -> Vec<Row> {
     tanks(&mut all);
     fluids::fluids(&mut all);
     moving_bodies::moving_bodies(&mut all);
+    separated::separated(&mut all);
     relaxation(&mut all);
     all
 }

@@ -3,13 +3,17 @@
 mod brute;
 mod captured;
 mod displaced;
+mod separated;
+mod winding;
 
 use std::collections::BTreeMap;
 
 pub(crate) use captured::Captured;
 pub(crate) use displaced::Displaced;
+pub(crate) use separated::Separated;
 
 use super::row::Measure;
+use crate::selection::Selection;
 
 /// What is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +22,8 @@ pub(crate) enum Trial {
     Displaced(Displaced),
     /// A cylinder, with another interval between captures.
     Captured(Captured),
+    /// Points about a body, told apart.
+    Separated(Separated),
 }
 
 impl From<Displaced> for Trial {
@@ -32,12 +38,19 @@ impl From<Captured> for Trial {
     }
 }
 
+impl From<Separated> for Trial {
+    fn from(trial: Separated) -> Self {
+        Self::Separated(trial)
+    }
+}
+
 impl Trial {
     /// What it is, in a line.
     pub(crate) fn words(&self) -> String {
         match self {
             Self::Displaced(trial) => trial.words(),
             Self::Captured(trial) => trial.words(),
+            Self::Separated(trial) => trial.words(),
         }
     }
 
@@ -46,14 +59,19 @@ impl Trial {
         match self {
             Self::Displaced(trial) => trial.lattice.name().to_owned(),
             Self::Captured(trial) => format!("every {} iterations", trial.every),
+            Self::Separated(trial) => trial.scene.to_owned(),
         }
     }
 
-    /// Its figures.
-    pub(crate) fn figures(&self) -> Result<BTreeMap<Measure, f64>, String> {
+    /// Its figures; `None` where its body's file is not there.
+    pub(crate) fn figures(
+        &self,
+        selection: &Selection,
+    ) -> Result<Option<BTreeMap<Measure, f64>>, String> {
         match self {
-            Self::Displaced(trial) => Ok(trial.figures()),
-            Self::Captured(trial) => trial.figures(),
+            Self::Displaced(trial) => Ok(Some(trial.figures())),
+            Self::Captured(trial) => trial.figures().map(Some),
+            Self::Separated(trial) => trial.figures(selection),
         }
     }
 }
