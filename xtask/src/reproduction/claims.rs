@@ -27,7 +27,7 @@ const fn missing(
 }
 
 /// What every figure shows, in our words; those without rows say why.
-pub(crate) const FIGURES: [Figure; 29] = [
+pub(crate) const FIGURES: [Figure; 30] = [
     shown(
         "000",
         "fig7",
@@ -75,6 +75,11 @@ pub(crate) const FIGURES: [Figure; 29] = [
         "001",
         "fig13",
         "how well particles around a cylinder interpolate a function and its derivative",
+    ),
+    shown(
+        "001",
+        "sec4.1",
+        "how well particles around a cylinder interpolate at one ∆s, by h/∆s",
     ),
     shown("001", "fig15", "density at a zig-zag wall by three methods"),
     shown(

@@ -113,12 +113,13 @@ impl Store {
         eprintln!("   packing {}", setup.words());
         scene.spacing = setup.spacing / setup.enlarged;
         scene.packing.method = setup.method;
+        scene.packing.kernel = setup.kernel.or(scene.packing.kernel);
         scene.packing.finish = setup.finish;
         scene.packing.h_over_spacing = setup.h_over_spacing.or(scene.packing.h_over_spacing);
         scene.packing.velocity_tolerance = setup.tolerance;
         scene.packing.max_iterations = setup.patience;
         if let Some(h) = setup.judged_at {
-            scene.quality.kernel = Some(KernelKind::Quintic);
+            scene.quality.kernel = Some(setup.kernel.unwrap_or(KernelKind::Quintic));
             scene.quality.h_over_spacing = Some(h);
         }
         let start = Instant::now();
@@ -128,7 +129,8 @@ impl Store {
         let mut figures = of_report(&outcome, seconds);
         if interpolates {
             let h = setup.judged_at.unwrap_or(scene.packing.h_over_spacing());
-            figures.extend(interpolated(&outcome, h));
+            let kernel = setup.kernel.unwrap_or(KernelKind::Quintic);
+            figures.extend(interpolated(&outcome, kernel, h));
         }
         let measured = Measured {
             figures,
@@ -200,14 +202,14 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
     figures
 }
 
-fn interpolated(outcome: &Outcome, h_over_spacing: f64) -> Vec<(Measure, f64)> {
+fn interpolated(outcome: &Outcome, kernel: KernelKind, h_over_spacing: f64) -> Vec<(Measure, f64)> {
     let Study {
         printed,
         off_sites,
         at_particles,
     } = match &outcome.packing {
-        Packing::Plane(solution) => study(&solution.packed, h_over_spacing),
-        Packing::Space(solution) => study(&solution.packed, h_over_spacing),
+        Packing::Plane(solution) => study(&solution.packed, kernel, h_over_spacing),
+        Packing::Space(solution) => study(&solution.packed, kernel, h_over_spacing),
     };
     vec![
         (Measure::FunctionAsPrinted, printed.function),

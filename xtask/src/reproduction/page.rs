@@ -14,6 +14,8 @@ pub(crate) struct Result {
     pub(crate) row: Row,
     /// None where its body's file is not there.
     pub(crate) ours: Option<f64>,
+    /// The figure against h/∆s, where the number is of several.
+    pub(crate) curve: Vec<[f64; 2]>,
     pub(crate) verdict: Verdict,
     pub(crate) seconds: f64,
     /// The picture of its packing.
@@ -115,7 +117,7 @@ fn summary(result: &Result) -> Value {
         "figure": row.figure,
         "scene": row.subject.packing().map(|setup| setup.scene),
         "setup": row.subject.words(),
-        "over": row.over.map(|over| over.words()),
+        "taken": row.taken.words(),
         "measure": row.measure.name(),
         "published": match row.published {
             Published::Text(value) => json!(value),
@@ -179,11 +181,10 @@ fn section(out: &mut String, figure: &Figure, own: &[&Result]) -> std::result::R
             Verdict::Changed => "changed",
             Verdict::Beside | Verdict::NoData => "",
         };
-        let over =
-            (row.over).map_or_else(String::new, |over| format!("; {} over it", over.short()));
+        let taken = row.taken.words();
         let _ = writeln!(
             out,
-            "<tr><td>{}{over}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{class}\">{}</td><td class=\"n\">{:.1}</td></tr>",
+            "<tr><td>{}{taken}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{class}\">{}</td><td class=\"n\">{:.1}</td></tr>",
             row.subject.words(),
             row.measure.name(),
             published(row),

@@ -1,6 +1,7 @@
 //! One number of a paper, and what stands beside it.
 
 use sphpack::scene::{Finish, Method};
+use sphpack_kernels::KernelKind;
 
 use super::subject::Subject;
 
@@ -14,6 +15,8 @@ pub(crate) struct Setup {
     /// Factor on all lengths but ∆s: densities have no unit, so a body enlarged is the body at a smaller ∆s.
     pub(crate) enlarged: f64,
     pub(crate) method: Method,
+    /// The kernel that packs and judges; the method's own, and the quintic one, where there is none.
+    pub(crate) kernel: Option<KernelKind>,
     /// Of the method balanced.
     pub(crate) finish: Finish,
     /// h/∆s that packs; the method's own where there is none.
@@ -34,6 +37,7 @@ impl Setup {
             spacing,
             enlarged: 1.0,
             method,
+            kernel: None,
             finish: Finish::Even,
             h_over_spacing: None,
             judged_at: None,
@@ -45,6 +49,13 @@ impl Setup {
     pub(crate) const fn at(self, h_over_spacing: f64) -> Self {
         Self {
             h_over_spacing: Some(h_over_spacing),
+            ..self
+        }
+    }
+
+    pub(crate) const fn by(self, kernel: KernelKind) -> Self {
+        Self {
+            kernel: Some(kernel),
             ..self
         }
     }
@@ -95,8 +106,9 @@ impl Setup {
             format!(" × {}", self.enlarged)
         };
         let h = (self.h_over_spacing).map_or_else(String::new, |h| format!(", h/∆s = {h}"));
+        let kernel = (self.kernel).map_or_else(String::new, |kernel| format!(", {kernel}"));
         format!(
-            "{}{size}, ∆s = {}{h}, {}",
+            "{}{size}, ∆s = {}{h}{kernel}, {}",
             self.scene,
             self.spacing,
             self.method_name()
@@ -274,16 +286,68 @@ pub(crate) enum Bar {
     Beside,
 }
 
+/// How a row's number comes of figures.
+#[derive(Debug, Clone)]
+pub(crate) enum Taken {
+    /// It is the subject's.
+    Alone,
+    /// This one's over the subject's.
+    Over(Subject),
+    /// The power of ∆s that the figure grows with, from the subject and these packings.
+    Slope(Vec<Setup>),
+    /// The standard error of that power.
+    SlopeError(Vec<Setup>),
+    /// The greatest of the subject's and those of these packings, which differ in h/∆s.
+    Greatest(Vec<Setup>),
+}
+
+impl Taken {
+    /// What is measured besides the subject.
+    pub(crate) fn others(&self) -> Vec<Subject> {
+        match self {
+            Self::Alone => Vec::new(),
+            Self::Over(over) => vec![*over],
+            Self::Slope(others) | Self::SlopeError(others) | Self::Greatest(others) => {
+                others.iter().map(|&setup| setup.into()).collect()
+            }
+        }
+    }
+
+    /// What follows the subject's words.
+    pub(crate) fn words(&self) -> String {
+        let spacings = |others: &[Setup]| {
+            let all: Vec<String> = (others.iter())
+                .map(|setup| (setup.spacing / setup.enlarged).to_string())
+                .collect();
+            all.join(", ")
+        };
+        match self {
+            Self::Alone => String::new(),
+            Self::Over(over) => format!("; {} over it", over.short()),
+            Self::Slope(others) => format!("; slope over ∆s, with {}", spacings(others)),
+            Self::SlopeError(others) => {
+                format!(
+                    "; standard error of the slope over ∆s, with {}",
+                    spacings(others)
+                )
+            }
+            Self::Greatest(others) => {
+                let last = others.last().and_then(|setup| setup.h_over_spacing);
+                format!("; greatest up to h/∆s = {}", last.unwrap_or(f64::NAN))
+            }
+        }
+    }
+}
+
 /// A number of a paper beside ours.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Row {
     /// The paper's number in docs/papers.md.
     pub(crate) paper: &'static str,
     /// "fig12", "table1".
     pub(crate) figure: &'static str,
     pub(crate) subject: Subject,
-    /// The row's number is this one's figure over that of `subject`.
-    pub(crate) over: Option<Subject>,
+    pub(crate) taken: Taken,
     pub(crate) measure: Measure,
     pub(crate) published: Published,
     pub(crate) bar: Bar,
@@ -294,9 +358,13 @@ pub(crate) struct Row {
 impl Row {
     /// What tells it from all others.
     pub(crate) fn id(&self) -> String {
-        let over = (self.over).map_or_else(String::new, |o| format!(" under {}", o.short()));
+        // A ratio has had this name from the first.
+        let taken = match &self.taken {
+            Taken::Over(over) => format!(" under {}", over.short()),
+            other => other.words(),
+        };
         format!(
-            "{} {}: {}{}{over}: {}",
+            "{} {}: {}{}{taken}: {}",
             self.paper,
             self.figure,
             self.subject.words(),

@@ -7,12 +7,13 @@ mod displaced;
 mod fluids;
 mod moving_bodies;
 mod separated;
+mod slopes;
 
 use sphpack::scene::Method;
 
 use crate::shipped::iterations_together;
 
-use super::row::{Bar, Measure, Published, Row, Setup};
+use super::row::{Bar, Measure, Published, Row, Setup, Taken};
 use super::subject::Subject;
 
 /// h/∆s at which Negi & Ramachandran (2021), §4.1 judge a spacing: 1.0 at 0.1, rising in a line to 1.5 at 0.02.
@@ -27,7 +28,7 @@ fn row(figure: &'static str, subject: impl Into<Subject>, measure: Measure) -> R
         paper: "001",
         figure,
         subject: subject.into(),
-        over: None,
+        taken: Taken::Alone,
         measure,
         published: PICTURE,
         bar: Bar::Beside,
@@ -77,7 +78,7 @@ impl Row {
 
     fn under(self, over: impl Into<Subject>) -> Self {
         Self {
-            over: Some(over.into()),
+            taken: Taken::Over(over.into()),
             ..self
         }
     }
@@ -98,6 +99,7 @@ pub(crate) fn rows() -> Vec<Row> {
     moving_bodies::moving_bodies(&mut all);
     separated::separated(&mut all);
     relaxation(&mut all);
+    slopes::slopes(&mut all);
     all
 }
 
