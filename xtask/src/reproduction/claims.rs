@@ -45,11 +45,10 @@ pub(crate) const FIGURES: [Figure; 30] = [
         "which particles are inside: by signed angles in the plane, by rays in space",
     ),
     missing("000", "fig13", "flow past a cylinder", FLOW),
-    missing(
+    shown(
         "001",
         "fig5",
         "the repulsion beside one of Lennard-Jones's kind",
-        Some("a curve of two formulas, no packing"),
     ),
     shown(
         "001",

@@ -171,6 +171,18 @@ pub(crate) enum Measure {
     SecondsByTree,
     /// The same with a cell list.
     SecondsByCells,
+    /// The distance at which a repulsion begins, in ∆s.
+    Begins,
+    /// The largest repulsion, for p_b = 1 and ∆s = 1.
+    LargestForce,
+    /// The repulsion of two particles at one place over the largest.
+    ForceTogether,
+    /// How far it is off the printed formula, over the largest.
+    OffPrinted,
+    /// The largest attraction.
+    Pulls,
+    /// The force of Lennard-Jones's kind at ∆s/2 over the largest repulsion.
+    LennardJonesOverOurs,
     /// Error of an interpolated function, as Negi & Ramachandran (2021) judge: eq. 33, beside a regular mesh's sum at its own
     /// sites.
     FunctionAsPrinted,
@@ -187,7 +199,7 @@ pub(crate) enum Measure {
 }
 
 impl Measure {
-    pub(crate) const ALL: [Self; 32] = [
+    pub(crate) const ALL: [Self; 38] = [
         Self::Variation,
         Self::VariationNear,
         Self::Linf,
@@ -214,6 +226,12 @@ impl Measure {
         Self::SecondsByRays,
         Self::SecondsByTree,
         Self::SecondsByCells,
+        Self::Begins,
+        Self::LargestForce,
+        Self::ForceTogether,
+        Self::OffPrinted,
+        Self::Pulls,
+        Self::LennardJonesOverOurs,
         Self::FunctionAsPrinted,
         Self::DerivativeAsPrinted,
         Self::FunctionOffSites,
@@ -251,6 +269,12 @@ impl Measure {
             Self::SecondsByRays => "seconds: rays",
             Self::SecondsByTree => "seconds: kd-tree, all neighbours",
             Self::SecondsByCells => "seconds: cell list, all neighbours",
+            Self::Begins => "where the repulsion begins / ∆s",
+            Self::LargestForce => "largest repulsion (p_b = ∆s = 1)",
+            Self::ForceTogether => "repulsion at r = 0 / largest",
+            Self::OffPrinted => "off the printed formula / largest",
+            Self::Pulls => "largest attraction",
+            Self::LennardJonesOverOurs => "Lennard-Jones's kind at ∆s/2 / our largest",
             Self::FunctionAsPrinted => "L2 of the function, as printed",
             Self::DerivativeAsPrinted => "L2 of the derivative, as printed",
             Self::FunctionOffSites => "L2 of the function off the sites / lattice's",

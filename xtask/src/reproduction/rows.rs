@@ -6,6 +6,7 @@ mod captured;
 mod displaced;
 mod fluids;
 mod moving_bodies;
+mod repelled;
 mod separated;
 mod slopes;
 
@@ -87,6 +88,7 @@ impl Row {
 /// All rows, paper by paper.
 pub(crate) fn rows() -> Vec<Row> {
     let mut all = Vec::new();
+    repelled::repelled(&mut all);
     displaced::displaced(&mut all);
     captured::captured(&mut all);
     cylinder(&mut all);

@@ -3,6 +3,7 @@
 mod brute;
 mod captured;
 mod displaced;
+mod repelled;
 mod separated;
 mod winding;
 
@@ -10,6 +11,7 @@ use std::collections::BTreeMap;
 
 pub(crate) use captured::Captured;
 pub(crate) use displaced::Displaced;
+pub(crate) use repelled::Repelled;
 pub(crate) use separated::Separated;
 
 use super::row::Measure;
@@ -24,6 +26,8 @@ pub(crate) enum Trial {
     Captured(Captured),
     /// Points about a body, told apart.
     Separated(Separated),
+    /// Two particles that repel each other.
+    Repelled(Repelled),
 }
 
 impl From<Displaced> for Trial {
@@ -44,6 +48,12 @@ impl From<Separated> for Trial {
     }
 }
 
+impl From<Repelled> for Trial {
+    fn from(trial: Repelled) -> Self {
+        Self::Repelled(trial)
+    }
+}
+
 impl Trial {
     /// What it is, in a line.
     pub(crate) fn words(&self) -> String {
@@ -51,6 +61,7 @@ impl Trial {
             Self::Displaced(trial) => trial.words(),
             Self::Captured(trial) => trial.words(),
             Self::Separated(trial) => trial.words(),
+            Self::Repelled(trial) => trial.words(),
         }
     }
 
@@ -60,6 +71,7 @@ impl Trial {
             Self::Displaced(trial) => trial.lattice.name().to_owned(),
             Self::Captured(trial) => format!("every {} iterations", trial.every),
             Self::Separated(trial) => trial.scene.to_owned(),
+            Self::Repelled(trial) => trial.words(),
         }
     }
 
@@ -72,6 +84,7 @@ impl Trial {
             Self::Displaced(trial) => Ok(Some(trial.figures())),
             Self::Captured(trial) => trial.figures().map(Some),
             Self::Separated(trial) => trial.figures(selection),
+            Self::Repelled(trial) => Ok(Some(trial.figures())),
         }
     }
 }
