@@ -16,8 +16,8 @@ pub(crate) struct Repelled {
 const PLACES: usize = 4400;
 const FARTHEST: f64 = 1.1;
 
-/// Where the curves begin: the one of Lennard-Jones's kind is beyond all paper nearer than this.
-const NEAREST_DRAWN: f64 = 0.45;
+/// No higher than this many of ours is drawn: the one of Lennard-Jones's kind is beyond all paper soon.
+const DRAWN: f64 = 3.0;
 
 impl Repelled {
     pub(crate) fn words(&self) -> String {
@@ -53,18 +53,18 @@ impl Repelled {
     /// Both curves.
     pub(crate) fn curves(&self) -> Vec<(String, Vec<[f64; 2]>)> {
         let force = Repulsion::with_reach(1.0, Repulsion::STRENGTH, self.alpha);
-        let over = |f: &dyn Fn(f64) -> f64, from: f64| -> Vec<[f64; 2]> {
-            (0..=110)
+        let over = |f: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
+            (1..=110)
                 .map(|i| 0.01 * f64::from(i))
-                .filter(|r| *r >= from)
                 .map(|r| [r, f(r)])
+                .filter(|point| point[1].abs() <= DRAWN * force.force(0.0))
                 .collect()
         };
         vec![
-            ("ours".to_owned(), over(&|r| force.force(r), 0.0)),
+            ("ours".to_owned(), over(&|r| force.force(r))),
             (
                 "Lennard-Jones's kind".to_owned(),
-                over(&|r| self.like_lennard_jones(r), NEAREST_DRAWN),
+                over(&|r| self.like_lennard_jones(r)),
             ),
         ]
     }
