@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use super::measure::Measure;
 use super::page::Result as Ended;
-use super::row::Measure;
 use super::subject::Subject;
 use super::trials::{Repelled, Trial};
 use crate::chart::{Axis, Chart, Scale, Series};

@@ -14,7 +14,8 @@ use sphpack_packing::Silent;
 
 use super::divergence::found;
 use super::interpolation::{Study, study};
-use super::row::{Measure, Setup};
+use super::measure::Measure;
+use super::setup::Setup;
 use super::subject::Subject;
 use super::trials::Trial;
 use crate::figures::variation_near;
@@ -248,7 +249,7 @@ pub(crate) fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
 }
 
 /// What a measured packing depends on.
-const CODE: [&str; 15] = [
+const CODE: [&str; 16] = [
     "Cargo.lock",
     "scenes",
     "kernels/src",
@@ -262,8 +263,9 @@ const CODE: [&str; 15] = [
     "xtask/src/shipped.rs",
     "xtask/src/reproduction/divergence.rs",
     "xtask/src/reproduction/interpolation.rs",
+    "xtask/src/reproduction/measure.rs",
     "xtask/src/reproduction/measured.rs",
-    "xtask/src/reproduction/row.rs",
+    "xtask/src/reproduction/setup.rs",
 ];
 
 /// What trials depend on besides.

@@ -4,10 +4,12 @@ mod claims;
 mod curves;
 mod divergence;
 mod interpolation;
+mod measure;
 mod measured;
 mod page;
 mod row;
 mod rows;
+mod setup;
 mod slope;
 mod subject;
 mod trials;
@@ -20,11 +22,13 @@ use crate::arguments::Arguments;
 use crate::selection::Selection;
 use crate::workspace::root;
 use claims::{FIGURES, KNOWN_MISSES};
+use measure::Measure;
 pub(crate) use measured::paint;
 use measured::{Measured, Store};
 use page::{Result as Ended, Verdict, figure, published};
-use row::{Measure, Row, Setup, Taken};
+use row::{Row, Taken};
 use rows::rows;
+use setup::Setup;
 use slope::slope;
 
 /// The papers that have rows.

@@ -14,7 +14,9 @@ use sphpack::scene::Method;
 
 use crate::shipped::iterations_together;
 
-use super::row::{Bar, Measure, Published, Row, Setup, Taken};
+use super::measure::Measure;
+use super::row::{Bar, Published, Row, Taken};
+use super::setup::Setup;
 use super::subject::Subject;
 
 /// h/∆s at which Negi & Ramachandran (2021), §4.1 judge a spacing: 1.0 at 0.1, rising in a line to 1.5 at 0.02.

@@ -1,6 +1,6 @@
 //! What a row's number is of: a packed scene, or a trial that needs no packing.
 
-use super::row::Setup;
+use super::setup::Setup;
 use super::trials::Trial;
 
 /// What is measured.

@@ -1,7 +1,8 @@
 //! 001 fig. 8: the interval between captures.
 
 use super::row;
-use crate::reproduction::row::{Measure, Row};
+use crate::reproduction::measure::Measure;
+use crate::reproduction::row::Row;
 use crate::reproduction::trials::Captured;
 
 /// The paper's choice, and where it finds that more changes little.

@@ -3,7 +3,8 @@
 use sphpack_packing::Lattice;
 
 use super::row;
-use crate::reproduction::row::{Measure, Row};
+use crate::reproduction::measure::Measure;
+use crate::reproduction::row::Row;
 use crate::reproduction::trials::Displaced;
 
 /// Iterations of the paper, and those after which the plane's lattices are looked at in a hurry.

@@ -3,7 +3,9 @@
 use sphpack::scene::Method;
 
 use super::row;
-use crate::reproduction::row::{Measure, Row, Setup};
+use crate::reproduction::measure::Measure;
+use crate::reproduction::row::Row;
+use crate::reproduction::setup::Setup;
 
 /// Iterations that 002 §IV names for its tanks; it names none here.
 const MOST: usize = 20_000;

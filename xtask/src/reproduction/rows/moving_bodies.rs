@@ -3,7 +3,9 @@
 use sphpack::scene::Method;
 
 use super::row;
-use crate::reproduction::row::{Measure, Row, Setup};
+use crate::reproduction::measure::Measure;
+use crate::reproduction::row::Row;
+use crate::reproduction::setup::Setup;
 
 pub(super) fn moving_bodies(all: &mut Vec<Row>) {
     for (figure, scene, spacing, quick) in [

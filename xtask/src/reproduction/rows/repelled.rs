@@ -1,7 +1,8 @@
 //! 001 fig. 5: the repulsion.
 
 use super::row;
-use crate::reproduction::row::{Measure, Row};
+use crate::reproduction::measure::Measure;
+use crate::reproduction::row::Row;
 use crate::reproduction::trials::Repelled;
 
 /// α of the figure, and the one that the paper packs with.

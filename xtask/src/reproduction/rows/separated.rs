@@ -1,7 +1,8 @@
 //! 000 §2.7 and 001 §3.1.7: which points are in a body.
 
 use super::row;
-use crate::reproduction::row::{Measure, Row};
+use crate::reproduction::measure::Measure;
+use crate::reproduction::row::Row;
 use crate::reproduction::trials::Separated;
 
 /// How a body is given, which tells what the papers' ways to its inside are.

@@ -4,7 +4,9 @@ use sphpack::scene::Method;
 use sphpack_kernels::KernelKind;
 
 use super::{h_at, row};
-use crate::reproduction::row::{Measure, Row, Setup, Taken};
+use crate::reproduction::measure::Measure;
+use crate::reproduction::row::{Row, Taken};
+use crate::reproduction::setup::Setup;
 
 /// h/∆s of the curves, at this ∆s.
 const CURVED_AT: f64 = 0.05;

@@ -7,7 +7,7 @@ use sphpack_neighbors::Domain;
 use sphpack_packing::{Hybrid, Kind, Problem};
 
 use super::brute::gradients;
-use crate::reproduction::row::Measure;
+use crate::reproduction::measure::Measure;
 
 /// The paper's body: radius 1, ∆s = 0.1, in a box of side 4.
 const SPACING: f64 = 0.1;

@@ -10,7 +10,7 @@ use sphpack_packing::{Kind, Lattice, Particles, Sizes};
 use sphpack_pairs::Repulsion;
 
 use super::brute::{nearest, periodic_gamma};
-use crate::reproduction::row::Measure;
+use crate::reproduction::measure::Measure;
 
 /// What is moved, under which forces, for how long. Lengths are in ∆s.
 #[derive(Debug, Clone, Copy, PartialEq)]

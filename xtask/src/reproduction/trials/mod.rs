@@ -14,7 +14,7 @@ pub(crate) use displaced::Displaced;
 pub(crate) use repelled::Repelled;
 pub(crate) use separated::Separated;
 
-use super::row::Measure;
+use super::measure::Measure;
 use crate::selection::Selection;
 
 /// What is tried.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use sphpack_pairs::Repulsion;
 
-use crate::reproduction::row::Measure;
+use crate::reproduction::measure::Measure;
 
 /// The library's force between two particles, by their distance, with this α. ∆s = 1 and p_b = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -12,7 +12,7 @@ use sphpack_neighbors::{Bounds, CellList, Domain, KdTree};
 use sphpack_separation::{Side, separate, separate_by_flood};
 
 use super::winding::{passed_along_x, solid_angle, whole, winds_around};
-use crate::reproduction::row::Measure;
+use crate::reproduction::measure::Measure;
 use crate::selection::Selection;
 use crate::shipped::load;
 
