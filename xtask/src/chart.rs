@@ -81,6 +81,18 @@ impl Axis {
 }
 
 impl Chart {
+    /// The numbers, a line each: series, x, y.
+    pub(crate) fn csv(&self) -> String {
+        let mut out = format!("series,{},{}\n", self.axes[0].title, self.axes[1].title);
+        for series in &self.series {
+            for [x, y] in &series.points {
+                // Writing to a string cannot fail.
+                let _ = writeln!(out, "\"{}\",{x},{y}", series.name);
+            }
+        }
+        out
+    }
+
     /// The drawing. What is not finite, or not positive on a logarithmic axis, is left out.
     pub(crate) fn svg(&self) -> String {
         let [left, right, top, bottom] = ROOM;

@@ -89,7 +89,8 @@ fn figures<const D: usize>(packed: &Packed<D>, outcome: &Outcome) -> Figures {
         .collect();
     let count = &report.particles;
     let particles = (count.total - count.frozen) as f64;
-    let study = (particles <= MOST_THAT_INTERPOLATE).then(|| study(packed, DENSITY.1).off_sites);
+    let study =
+        (particles <= MOST_THAT_INTERPOLATE).then(|| study(packed, DENSITY.0, DENSITY.1).off_sites);
     let finite = |value: f64| Some(value).filter(|value| value.is_finite());
     let (on, target) = (report.surface.iter()).fold((0, 0), |(on, target), surface| {
         (on + surface.count, target + surface.target_count)

@@ -1,7 +1,7 @@
 //! How well particles interpolate a function: the study of Negi & Ramachandran (2021), figs. 13, 16 and 20.
 
 use rayon::prelude::*;
-use sphpack_kernels::{Kernel, Quintic};
+use sphpack_kernels::{Kernel, KernelKind, WithKernel};
 use sphpack_neighbors::{KdTree, point};
 use sphpack_packing::{Kind, Lattice, Packed};
 
@@ -29,10 +29,28 @@ const MOVED: [f64; 3] = [0.381_966, 0.236_068, 0.145_898];
 /// Nearer to the middle than this part of the body's longest edge nobody looks: the flow does not (the paper, §4.1).
 const MIDDLE: f64 = 0.45;
 
-/// The study of a packing by the quintic kernel at `h_over_spacing`.
-pub(crate) fn study<const D: usize>(packed: &Packed<D>, h_over_spacing: f64) -> Study {
+/// The study of a packing by a kernel at `h_over_spacing`.
+pub(crate) fn study<const D: usize>(
+    packed: &Packed<D>,
+    kernel: KernelKind,
+    h_over_spacing: f64,
+) -> Study {
+    kernel.with(h_over_spacing * packed.spacing, Studied(packed))
+}
+
+/// Asks a kernel how well a packing interpolates.
+struct Studied<'a, const D: usize>(&'a Packed<D>);
+
+impl<const D: usize> WithKernel<D> for Studied<'_, D> {
+    type Output = Study;
+
+    fn call<K: Kernel<D>>(self, kernel: K) -> Study {
+        studied(self.0, &kernel)
+    }
+}
+
+fn studied<const D: usize, K: Kernel<D>>(packed: &Packed<D>, kernel: &K) -> Study {
     let (domain, spacing) = (packed.domain, packed.spacing);
-    let kernel = Quintic::<D>::new(h_over_spacing * spacing);
     let particles = &packed.particles;
     let set = Set {
         tree: KdTree::new(&particles.position).ok(),
@@ -62,7 +80,7 @@ pub(crate) fn study<const D: usize>(packed: &Packed<D>, h_over_spacing: f64) -> 
     let is_asked = |p: &[f64; D]| point::norm(*p) > MIDDLE * edge && domain.bounds.contains(*p);
     let points: Vec<[f64; D]> = sites[..inner].iter().copied().filter(is_asked).collect();
     let printed = rms(&points, |p| {
-        let (own, reference) = (set.at(&kernel, p), regular.at(&kernel, p));
+        let (own, reference) = (set.at(kernel, p), regular.at(kernel, p));
         [own[0] - reference[0], own[1] - reference[1]]
     });
     let moved: Vec<[f64; D]> = (sites[..inner].iter())
@@ -71,7 +89,7 @@ pub(crate) fn study<const D: usize>(packed: &Packed<D>, h_over_spacing: f64) -> 
         .collect();
     let against_itself = |set: &Set<'_, D>, points: &[[f64; D]]| {
         rms(points, |p| {
-            let (own, exact) = (set.at(&kernel, p), function(p));
+            let (own, exact) = (set.at(kernel, p), function(p));
             [own[0] - exact[0], own[1] - exact[1]]
         })
     };
@@ -119,7 +137,7 @@ struct Set<'a, const D: usize> {
 
 impl<const D: usize> Set<'_, D> {
     /// ⟨f⟩ and ⟨∂f/∂x⟩ at a place (eqs. 31 and 32).
-    fn at(&self, kernel: &Quintic<D>, p: [f64; D]) -> [f64; 2] {
+    fn at<K: Kernel<D>>(&self, kernel: &K, p: [f64; D]) -> [f64; 2] {
         let Some(tree) = &self.tree else {
             return [0.0; 2];
         };
@@ -164,7 +182,7 @@ mod tests {
         let mut problem = Problem::new(domain, 0.1);
         problem.lattice = Some(Lattice::Square);
         let packed = problem.pack(&Balanced::default()).unwrap();
-        let study = study(&packed, 1.2);
+        let study = study(&packed, KernelKind::Quintic, 1.2);
         assert!(study.printed.function < 1e-12, "{study:?}");
         assert!((study.off_sites.derivative - 1.0).abs() < 1e-6, "{study:?}");
         assert!(study.at_particles.function > 1e-4, "{study:?}");

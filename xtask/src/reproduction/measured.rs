@@ -6,14 +6,18 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde_json::{Value, json};
-use sphpack::picture::{PictureFormat, Subject, draw};
+use sphpack::picture::{self, PictureFormat, draw};
 use sphpack::{Options, Outcome, Packing, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::point;
 use sphpack_packing::Silent;
 
+use super::divergence::found;
 use super::interpolation::{Study, study};
-use super::row::{Measure, Setup};
+use super::measure::Measure;
+use super::setup::Setup;
+use super::subject::Subject;
+use super::trials::Trial;
 use crate::figures::variation_near;
 use crate::kept::Kept;
 use crate::selection::Selection;
@@ -23,35 +27,75 @@ use crate::shipped::load;
 #[derive(Debug, Clone)]
 pub(crate) struct Measured {
     pub(crate) figures: BTreeMap<Measure, f64>,
-    /// Whether it came to rest.
+    /// Whether it came to rest; a trial goes on for as long as it is told, and is over then.
     pub(crate) is_at_rest: bool,
-    /// Its picture, PNG.
-    pub(crate) picture: PathBuf,
+    /// A packing's picture, PNG.
+    pub(crate) picture: Option<PathBuf>,
 }
 
 /// What a measured packing depends on, beside what packs.
-const OWN: [&str; 5] = [
+const OWN: [&str; 7] = [
     "xtask/src/figures.rs",
     "xtask/src/shipped.rs",
+    "xtask/src/reproduction/divergence.rs",
     "xtask/src/reproduction/interpolation.rs",
+    "xtask/src/reproduction/measure.rs",
     "xtask/src/reproduction/measured.rs",
-    "xtask/src/reproduction/row.rs",
+    "xtask/src/reproduction/setup.rs",
 ];
 
 /// Measured packings in a folder.
 pub(crate) struct Store {
     kept: Kept,
+    /// Where trials are kept.
+    trials: Kept,
 }
 
 impl Store {
     /// The store in `folder`, which is made where it is not there.
     pub(crate) fn open(folder: &Path) -> Result<Self, String> {
-        Kept::open(folder, &OWN).map(|kept| Self { kept })
+        let trials = [&OWN[..], &[TRIALS]].concat();
+        Ok(Self {
+            kept: Kept::open(folder, &OWN)?,
+            trials: Kept::open(folder, &trials)?,
+        })
     }
 
-    /// The figures of a setup, from the store or from a packing; `None` where its body's file is not there. A packing that
+    /// The figures of a subject, from the store or measured; `None` where its body's file is not there. A packing that
     /// was measured without the interpolation is packed again where that is asked for.
     pub(crate) fn measured(
+        &self,
+        subject: &Subject,
+        interpolates: bool,
+        selection: &Selection,
+    ) -> Result<Option<Measured>, String> {
+        match subject {
+            Subject::Packing(setup) => self.packed(setup, interpolates, selection),
+            Subject::Trial(trial) => self.tried(trial, selection),
+        }
+    }
+
+    fn tried(&self, trial: &Trial, selection: &Selection) -> Result<Option<Measured>, String> {
+        let entry = self.trials.path(&format!("{trial:?}"), "json");
+        if let Some(kept) = read(&entry, None) {
+            return Ok(Some(kept));
+        }
+        eprintln!("   trying {}", trial.words());
+        let start = Instant::now();
+        let Some(mut figures) = trial.figures(selection)? else {
+            return Ok(None);
+        };
+        figures.insert(Measure::Seconds, start.elapsed().as_secs_f64());
+        let measured = Measured {
+            figures,
+            is_at_rest: true,
+            picture: None,
+        };
+        measured.write(&entry)?;
+        Ok(Some(measured))
+    }
+
+    fn packed(
         &self,
         setup: &Setup,
         interpolates: bool,
@@ -60,7 +104,7 @@ impl Store {
         let of = format!("{setup:?}");
         let entry = self.kept.path(&of, "json");
         let picture = self.kept.path(&of, "png");
-        if let Some(kept) = read(&entry, &picture)
+        if let Some(kept) = read(&entry, Some(&picture))
             && (!interpolates || kept.figures.keys().any(|measure| measure.interpolates()))
         {
             return Ok(Some(kept));
@@ -71,12 +115,13 @@ impl Store {
         eprintln!("   packing {}", setup.words());
         scene.spacing = setup.spacing / setup.enlarged;
         scene.packing.method = setup.method;
+        scene.packing.kernel = setup.kernel.or(scene.packing.kernel);
         scene.packing.finish = setup.finish;
         scene.packing.h_over_spacing = setup.h_over_spacing.or(scene.packing.h_over_spacing);
         scene.packing.velocity_tolerance = setup.tolerance;
         scene.packing.max_iterations = setup.patience;
         if let Some(h) = setup.judged_at {
-            scene.quality.kernel = Some(KernelKind::Quintic);
+            scene.quality.kernel = Some(setup.kernel.unwrap_or(KernelKind::Quintic));
             scene.quality.h_over_spacing = Some(h);
         }
         let start = Instant::now();
@@ -86,14 +131,15 @@ impl Store {
         let mut figures = of_report(&outcome, seconds);
         if interpolates {
             let h = setup.judged_at.unwrap_or(scene.packing.h_over_spacing());
-            figures.extend(interpolated(&outcome, h));
+            let kernel = setup.kernel.unwrap_or(KernelKind::Quintic);
+            figures.extend(interpolated(&outcome, kernel, h));
         }
         let measured = Measured {
             figures,
             is_at_rest: outcome.report.converged,
-            picture,
+            picture: Some(picture.clone()),
         };
-        paint(&outcome, &measured.picture)?;
+        paint(&outcome, &picture)?;
         measured.write(&entry)?;
         Ok(Some(measured))
     }
@@ -109,16 +155,16 @@ impl Measured {
     }
 }
 
-fn read(entry: &Path, picture: &Path) -> Option<Measured> {
+fn read(entry: &Path, picture: Option<&Path>) -> Option<Measured> {
     let kept: Value = serde_json::from_slice(&fs::read(entry).ok()?).ok()?;
     let all = kept.get("figures")?.as_object()?;
-    picture.is_file().then_some(())?;
+    picture.is_none_or(Path::is_file).then_some(())?;
     Some(Measured {
         figures: (Measure::ALL.into_iter())
             .filter_map(|measure| Some((measure, all.get(measure.name())?.as_f64()?)))
             .collect(),
         is_at_rest: kept.get("at_rest")?.as_bool()?,
-        picture: picture.to_owned(),
+        picture: picture.map(Path::to_owned),
     })
 }
 
@@ -134,11 +180,12 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
         Packing::Plane(solution) => variation_near(&solution.packed, &solution.fields.gamma),
         Packing::Space(solution) => variation_near(&solution.packed, &solution.fields.gamma),
     };
-    BTreeMap::from([
+    let mut figures = BTreeMap::from([
         (Measure::Variation, report.density.total_variation),
         (Measure::VariationNear, near),
         (Measure::Linf, report.density.linf),
         (Measure::Residual, report.residual.max),
+        (Measure::ResidualRms, report.residual.rms),
         (Measure::OffSurface, off),
         (Measure::ClosestPair, report.closest_pair_over_spacing),
         (
@@ -147,17 +194,24 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
         ),
         (Measure::Iterations, report.iterations as f64),
         (Measure::Seconds, seconds),
-    ])
+    ]);
+    if let Packing::Plane(solution) = &outcome.packing
+        && let Some(found) = found(solution)
+    {
+        figures.insert(Measure::SurfaceMissed, found.missed);
+        figures.insert(Measure::SurfaceFalse, found.false_ones);
+    }
+    figures
 }
 
-fn interpolated(outcome: &Outcome, h_over_spacing: f64) -> Vec<(Measure, f64)> {
+fn interpolated(outcome: &Outcome, kernel: KernelKind, h_over_spacing: f64) -> Vec<(Measure, f64)> {
     let Study {
         printed,
         off_sites,
         at_particles,
     } = match &outcome.packing {
-        Packing::Plane(solution) => study(&solution.packed, h_over_spacing),
-        Packing::Space(solution) => study(&solution.packed, h_over_spacing),
+        Packing::Plane(solution) => study(&solution.packed, kernel, h_over_spacing),
+        Packing::Space(solution) => study(&solution.packed, kernel, h_over_spacing),
     };
     vec![
         (Measure::FunctionAsPrinted, printed.function),
@@ -181,7 +235,7 @@ pub(crate) fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
             [bounds.min, bounds.max]
         }
     };
-    let subject = Subject {
+    let subject = picture::Subject {
         name: &outcome.report.scene.name,
         table: &outcome.table,
         loops: &outcome.loops,
@@ -194,3 +248,6 @@ pub(crate) fn paint(outcome: &Outcome, path: &Path) -> Result<(), String> {
         .and_then(|()| fs::write(path, bytes))
         .map_err(|error| format!("{}: {error}", path.display()))
 }
+
+/// What trials depend on besides.
+const TRIALS: &str = "xtask/src/reproduction/trials";

@@ -14,6 +14,8 @@ pub(crate) struct Result {
     pub(crate) row: Row,
     /// None where its body's file is not there.
     pub(crate) ours: Option<f64>,
+    /// The figure against h/∆s, where the number is of several.
+    pub(crate) curve: Vec<[f64; 2]>,
     pub(crate) verdict: Verdict,
     pub(crate) seconds: f64,
     /// The picture of its packing.
@@ -86,15 +88,16 @@ pub(crate) fn write(
         "paper,figure,scene,spacing,method,measure,published,ours,verdict,seconds\n".to_owned();
     for result in results {
         let row = &result.row;
+        let [scene, spacing, method] = row.subject.columns();
         // Writing to a string cannot fail.
         let _ = writeln!(
             csv,
             "{},{},{},{},{},\"{}\",\"{}\",{},{},{:.3}",
             row.paper,
             row.figure,
-            row.setup.scene,
-            row.setup.spacing,
-            row.setup.method_name(),
+            scene,
+            spacing,
+            method,
             row.measure.name(),
             published(row),
             result
@@ -112,9 +115,9 @@ fn summary(result: &Result) -> Value {
     json!({
         "paper": row.paper,
         "figure": row.figure,
-        "scene": row.setup.scene,
-        "setup": row.setup.words(),
-        "over": row.over.map(|over| over.words()),
+        "scene": row.subject.packing().map(|setup| setup.scene),
+        "setup": row.subject.words(),
+        "taken": row.taken.words(),
         "measure": row.measure.name(),
         "published": match row.published {
             Published::Text(value) => json!(value),
@@ -178,13 +181,11 @@ fn section(out: &mut String, figure: &Figure, own: &[&Result]) -> std::result::R
             Verdict::Changed => "changed",
             Verdict::Beside | Verdict::NoData => "",
         };
-        let over = (row.over).map_or_else(String::new, |over| {
-            format!("; {} over it", over.method_name())
-        });
+        let taken = row.taken.words();
         let _ = writeln!(
             out,
-            "<tr><td>{}{over}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{class}\">{}</td><td class=\"n\">{:.1}</td></tr>",
-            row.setup.words(),
+            "<tr><td>{}{taken}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{class}\">{}</td><td class=\"n\">{:.1}</td></tr>",
+            row.subject.words(),
             row.measure.name(),
             published(row),
             result.ours.map_or_else(|| "–".to_owned(), self::figure),
@@ -203,12 +204,15 @@ fn section(out: &mut String, figure: &Figure, own: &[&Result]) -> std::result::R
         }
         seen.push(picture);
         let bytes = fs::read(picture).map_err(|error| format!("{}: {error}", picture.display()))?;
+        let subject = &result.row.subject;
+        let from = (subject.packing()).map_or_else(String::new, |setup| {
+            format!("; scenes/{}.toml", setup.scene)
+        });
         let _ = writeln!(
             out,
-            "<figure><img alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>{}; scenes/{}.toml</figcaption></figure>",
+            "<figure><img alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>{}{from}</figcaption></figure>",
             base64(&bytes),
-            result.row.setup.words(),
-            result.row.setup.scene
+            subject.words(),
         );
     }
     out.push_str("</div>\n");

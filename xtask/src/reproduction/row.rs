@@ -1,187 +1,8 @@
 //! One number of a paper, and what stands beside it.
 
-use sphpack::scene::{Finish, Method};
-
-/// How a scene is packed and judged.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Setup {
-    /// The scene's file in `scenes`, without extension.
-    pub(crate) scene: &'static str,
-    /// ∆s.
-    pub(crate) spacing: f64,
-    /// Factor on all lengths but ∆s: densities have no unit, so a body enlarged is the body at a smaller ∆s.
-    pub(crate) enlarged: f64,
-    pub(crate) method: Method,
-    /// Of the method balanced.
-    pub(crate) finish: Finish,
-    /// h/∆s that packs; the method's own where there is none.
-    pub(crate) h_over_spacing: Option<f64>,
-    /// h/∆s of the quintic kernel that judges; as packed where there is none.
-    pub(crate) judged_at: Option<f64>,
-    /// ε of damped dynamics.
-    pub(crate) tolerance: f64,
-    /// Iterations at most.
-    pub(crate) patience: usize,
-}
-
-impl Setup {
-    /// The hybrid method on a scene, with its defaults.
-    pub(crate) const fn of(scene: &'static str, spacing: f64, method: Method) -> Self {
-        Self {
-            scene,
-            spacing,
-            enlarged: 1.0,
-            method,
-            finish: Finish::Even,
-            h_over_spacing: None,
-            judged_at: None,
-            tolerance: 1e-4,
-            patience: 100_000,
-        }
-    }
-
-    pub(crate) const fn at(self, h_over_spacing: f64) -> Self {
-        Self {
-            h_over_spacing: Some(h_over_spacing),
-            ..self
-        }
-    }
-
-    pub(crate) const fn judged(self, h_over_spacing: f64) -> Self {
-        Self {
-            judged_at: Some(h_over_spacing),
-            ..self
-        }
-    }
-
-    pub(crate) const fn until(self, tolerance: f64) -> Self {
-        Self { tolerance, ..self }
-    }
-
-    pub(crate) const fn times(self, enlarged: f64) -> Self {
-        Self { enlarged, ..self }
-    }
-
-    pub(crate) const fn within(self, patience: usize) -> Self {
-        Self { patience, ..self }
-    }
-
-    pub(crate) const fn consistent(self) -> Self {
-        Self {
-            finish: Finish::Consistent,
-            ..self
-        }
-    }
-
-    /// The method, and the finish where it has several.
-    pub(crate) fn method_name(&self) -> String {
-        match (self.method, self.finish) {
-            (Method::Balanced, Finish::Even) => "balanced even".to_owned(),
-            (Method::Balanced, Finish::Consistent) => "balanced consistent".to_owned(),
-            (Method::Balanced, Finish::Calm) => "balanced calm".to_owned(),
-            (Method::Balanced, Finish::Both) => "balanced both".to_owned(),
-            (method, _) => method.name().to_owned(),
-        }
-    }
-
-    /// Scene, ∆s and method in a line.
-    pub(crate) fn words(&self) -> String {
-        let size = if self.enlarged == 1.0 {
-            String::new()
-        } else {
-            format!(" × {}", self.enlarged)
-        };
-        let h = (self.h_over_spacing).map_or_else(String::new, |h| format!(", h/∆s = {h}"));
-        format!(
-            "{}{size}, ∆s = {}{h}, {}",
-            self.scene,
-            self.spacing,
-            self.method_name()
-        )
-    }
-}
-
-/// A figure of a packing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Measure {
-    /// max Γ − min Γ.
-    Variation,
-    /// The same over the particles outside the bodies or within ∆s of their surfaces.
-    VariationNear,
-    /// max |Γ − 1|.
-    Linf,
-    /// Largest h |∇Γ| of a free particle.
-    Residual,
-    /// Largest distance of a surface particle from the surface, in ∆s.
-    OffSurface,
-    /// Smallest distance of two particles, in ∆s.
-    ClosestPair,
-    /// Particles on the surface over N_s.
-    OnSurface,
-    /// Iterations until rest.
-    Iterations,
-    /// Seconds, from scene to figures.
-    Seconds,
-    /// Error of an interpolated function, as Negi & Ramachandran (2021) judge: eq. 33, beside a regular mesh's sum at its own
-    /// sites.
-    FunctionAsPrinted,
-    /// The same of its derivative.
-    DerivativeAsPrinted,
-    /// Error of the interpolated function off the sites, against the function itself, over that of the moved lattice.
-    FunctionOffSites,
-    /// The same of its derivative.
-    DerivativeOffSites,
-    /// Error of the interpolated function at the particles, against the function itself.
-    FunctionAtParticles,
-    /// The same of its derivative.
-    DerivativeAtParticles,
-}
-
-impl Measure {
-    pub(crate) const ALL: [Self; 15] = [
-        Self::Variation,
-        Self::VariationNear,
-        Self::Linf,
-        Self::Residual,
-        Self::OffSurface,
-        Self::ClosestPair,
-        Self::OnSurface,
-        Self::Iterations,
-        Self::Seconds,
-        Self::FunctionAsPrinted,
-        Self::DerivativeAsPrinted,
-        Self::FunctionOffSites,
-        Self::DerivativeOffSites,
-        Self::FunctionAtParticles,
-        Self::DerivativeAtParticles,
-    ];
-
-    /// As tables and files call it.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Variation => "total variation of Γ",
-            Self::VariationNear => "total variation of Γ, outside and to ∆s inside",
-            Self::Linf => "L∞(Γ − 1)",
-            Self::Residual => "largest h|∇Γ|",
-            Self::OffSurface => "distance from the surface / ∆s",
-            Self::ClosestPair => "closest pair / ∆s",
-            Self::OnSurface => "particles on the surface / N_s",
-            Self::Iterations => "iterations",
-            Self::Seconds => "seconds",
-            Self::FunctionAsPrinted => "L2 of the function, as printed",
-            Self::DerivativeAsPrinted => "L2 of the derivative, as printed",
-            Self::FunctionOffSites => "L2 of the function off the sites / lattice's",
-            Self::DerivativeOffSites => "L2 of the derivative off the sites / lattice's",
-            Self::FunctionAtParticles => "L2 of the function at the particles",
-            Self::DerivativeAtParticles => "L2 of the derivative at the particles",
-        }
-    }
-
-    /// Whether it needs the interpolation of a function, which takes some seconds.
-    pub(crate) fn interpolates(self) -> bool {
-        self >= Self::FunctionAsPrinted
-    }
-}
+use super::measure::Measure;
+use super::setup::Setup;
+use super::subject::Subject;
 
 /// What a paper says.
 #[derive(Debug, Clone, Copy)]
@@ -203,16 +24,68 @@ pub(crate) enum Bar {
     Beside,
 }
 
+/// How a row's number comes of figures.
+#[derive(Debug, Clone)]
+pub(crate) enum Taken {
+    /// It is the subject's.
+    Alone,
+    /// This one's over the subject's.
+    Over(Subject),
+    /// The power of ∆s that the figure grows with, from the subject and these packings.
+    Slope(Vec<Setup>),
+    /// The standard error of that power.
+    SlopeError(Vec<Setup>),
+    /// The greatest of the subject's and those of these packings, which differ in h/∆s.
+    Greatest(Vec<Setup>),
+}
+
+impl Taken {
+    /// What is measured besides the subject.
+    pub(crate) fn others(&self) -> Vec<Subject> {
+        match self {
+            Self::Alone => Vec::new(),
+            Self::Over(over) => vec![*over],
+            Self::Slope(others) | Self::SlopeError(others) | Self::Greatest(others) => {
+                others.iter().map(|&setup| setup.into()).collect()
+            }
+        }
+    }
+
+    /// What follows the subject's words.
+    pub(crate) fn words(&self) -> String {
+        let spacings = |others: &[Setup]| {
+            let all: Vec<String> = (others.iter())
+                .map(|setup| (setup.spacing / setup.enlarged).to_string())
+                .collect();
+            all.join(", ")
+        };
+        match self {
+            Self::Alone => String::new(),
+            Self::Over(over) => format!("; {} over it", over.short()),
+            Self::Slope(others) => format!("; slope over ∆s, with {}", spacings(others)),
+            Self::SlopeError(others) => {
+                format!(
+                    "; standard error of the slope over ∆s, with {}",
+                    spacings(others)
+                )
+            }
+            Self::Greatest(others) => {
+                let last = others.last().and_then(|setup| setup.h_over_spacing);
+                format!("; greatest up to h/∆s = {}", last.unwrap_or(f64::NAN))
+            }
+        }
+    }
+}
+
 /// A number of a paper beside ours.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Row {
     /// The paper's number in docs/papers.md.
     pub(crate) paper: &'static str,
     /// "fig12", "table1".
     pub(crate) figure: &'static str,
-    pub(crate) setup: Setup,
-    /// The row's number is this setup's figure over that of `setup`.
-    pub(crate) over: Option<Setup>,
+    pub(crate) subject: Subject,
+    pub(crate) taken: Taken,
     pub(crate) measure: Measure,
     pub(crate) published: Published,
     pub(crate) bar: Bar,
@@ -223,17 +96,17 @@ pub(crate) struct Row {
 impl Row {
     /// What tells it from all others.
     pub(crate) fn id(&self) -> String {
-        let over = (self.over).map_or_else(String::new, |o| format!(" under {}", o.method_name()));
-        let tolerance = if self.setup.tolerance == 1e-4 {
-            String::new()
-        } else {
-            format!(" to {:e}", self.setup.tolerance)
+        // A ratio has had this name from the first.
+        let taken = match &self.taken {
+            Taken::Over(over) => format!(" under {}", over.short()),
+            other => other.words(),
         };
         format!(
-            "{} {}: {}{tolerance}{over}: {}",
+            "{} {}: {}{}{taken}: {}",
             self.paper,
             self.figure,
-            self.setup.words(),
+            self.subject.words(),
+            self.subject.remark(),
             self.measure.name()
         )
     }

@@ -2,11 +2,22 @@
 //!
 //! Numbers are from the papers' texts and tables; what is only drawn there stands as words.
 
+mod captured;
+mod displaced;
+mod fluids;
+mod moving_bodies;
+mod repelled;
+mod separated;
+mod slopes;
+
 use sphpack::scene::Method;
 
 use crate::shipped::iterations_together;
 
-use super::row::{Bar, Measure, Published, Row, Setup};
+use super::measure::Measure;
+use super::row::{Bar, Published, Row, Taken};
+use super::setup::Setup;
+use super::subject::Subject;
 
 /// h/∆s at which Negi & Ramachandran (2021), §4.1 judge a spacing: 1.0 at 0.1, rising in a line to 1.5 at 0.02.
 fn h_at(spacing: f64) -> f64 {
@@ -15,12 +26,12 @@ fn h_at(spacing: f64) -> f64 {
 
 const PICTURE: Published = Published::Words("a picture");
 
-fn row(figure: &'static str, setup: Setup, measure: Measure) -> Row {
+fn row(figure: &'static str, subject: impl Into<Subject>, measure: Measure) -> Row {
     Row {
         paper: "001",
         figure,
-        setup,
-        over: None,
+        subject: subject.into(),
+        taken: Taken::Alone,
         measure,
         published: PICTURE,
         bar: Bar::Beside,
@@ -68,9 +79,9 @@ impl Row {
         }
     }
 
-    fn under(self, over: Setup) -> Self {
+    fn under(self, over: impl Into<Subject>) -> Self {
         Self {
-            over: Some(over),
+            taken: Taken::Over(over.into()),
             ..self
         }
     }
@@ -79,13 +90,20 @@ impl Row {
 /// All rows, paper by paper.
 pub(crate) fn rows() -> Vec<Row> {
     let mut all = Vec::new();
+    repelled::repelled(&mut all);
+    displaced::displaced(&mut all);
+    captured::captured(&mut all);
     cylinder(&mut all);
     zigzag(&mut all);
     starfish_and_airfoil(&mut all);
     space(&mut all);
     first_version(&mut all);
     tanks(&mut all);
+    fluids::fluids(&mut all);
+    moving_bodies::moving_bodies(&mut all);
+    separated::separated(&mut all);
     relaxation(&mut all);
+    slopes::slopes(&mut all);
     all
 }
 
