@@ -4,7 +4,9 @@ mod boxes;
 mod contacts;
 mod drawn;
 mod frame;
+mod kinds;
 mod plane;
+mod row;
 mod shapes;
 mod space;
 mod thin;
@@ -19,6 +21,7 @@ use sphpack_packing::{Kind, Silent};
 
 use crate::arguments::Arguments;
 use crate::workspace::root;
+use row::{CLOSEST, LINF, Row};
 
 /// Spacings of each case, from a tenth of its smallest part to half of it.
 const SPACINGS: usize = 40;
@@ -28,10 +31,6 @@ const QUICK_SPACINGS: usize = 3;
 
 /// From the bodies to the sides of the box, in ∆s.
 const MARGIN: f64 = 6.0;
-
-/// What a packing should keep: |Γ − 1| below, and pairs apart by, in ∆s.
-const LINF: f64 = 5e-3;
-const CLOSEST: f64 = 0.8;
 
 /// A particle as the judge sees it.
 #[derive(Debug, Clone, Copy)]
@@ -98,34 +97,6 @@ impl Settings {
     }
 }
 
-/// What came of a case.
-#[derive(Debug, Clone, Default)]
-struct Row {
-    name: String,
-    scenes: usize,
-    /// Done, all parts right.
-    right: usize,
-    /// Of these, with density and pairs as they should be.
-    even: usize,
-    /// Not settled, or found unsound, and said so.
-    said: usize,
-    refused: usize,
-    /// Done, with a part whose mass is off.
-    wrong: Vec<String>,
-    /// Of what is done: the worst mass in allowances, L∞, closest pair.
-    worst: [f64; 3],
-}
-
-impl Row {
-    fn new(name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            worst: [0.0, 0.0, f64::INFINITY],
-            ..Self::default()
-        }
-    }
-}
-
 /// Packs and judges them all; fails where any of them is wrong.
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let folder = root().join("target/bodies");
@@ -155,9 +126,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             write(&rows)?;
         }
     }
-    for kind in drawn::KINDS {
+    for kind in kinds::KINDS {
         if is_asked(kind.name) {
-            rows.push(drawn::row(kind, &folder, settings.quick)?);
+            rows.push(kinds::row(kind, &folder, settings.quick)?);
             println!("{}", rows.last().map(line).unwrap_or_default());
             write(&rows)?;
         }
