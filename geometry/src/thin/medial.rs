@@ -8,12 +8,14 @@ use crate::sample::{Candidates, Local, keep_evenest};
 use crate::surface::{Closest, Feature, Surface};
 use crate::thickness::Touching;
 
-/// Times that points move to the middle of what they stand for.
+/// Times that points move to the middle of what they stand for, where they are few: what is uneven over a few points is soon even.
 const ROUNDS: usize = 40;
+const FEW: usize = 8;
 
-/// The same where the body goes on beyond a box: no tips hold what is uneven over many points, which evens out slowly. There a
-/// point goes on by this part of its last move.
-const ROUNDS_WITHOUT_ENDS: usize = 120;
+/// Times more that many do, and besides so many for every point across. What is uneven over many points evens out slowly, the
+/// slower where no tips hold it: a point goes on by a part of its last move, this one or what the longest wave asks for.
+const SLOW_ROUNDS: usize = 120;
+const ROUNDS_EACH: f64 = 2.0;
 const MOMENTUM: f64 = 0.9;
 
 /// A point ends a part where the next other one is this much farther from the part's end.
@@ -159,17 +161,22 @@ impl<const D: usize> Set<'_, D> {
     /// Moves free points to the weighted middle of the places nearest to them.
     fn settle(&mut self) -> Result<(), GeometryError> {
         let power = 2.0 / (D as f64 - 1.0);
-        let is_endless = self.body.window().is_some();
-        let rounds = if is_endless {
-            ROUNDS_WITHOUT_ENDS
+        let is_slow = self.free.len() > FEW || self.body.window().is_some();
+        let across = (self.free.len() as f64).powf(1.0 / (D as f64 - 1.0));
+        let (rounds, momentum) = if is_slow {
+            let longest = 1.0 - std::f64::consts::TAU / across;
+            (
+                SLOW_ROUNDS + (ROUNDS_EACH * across) as usize,
+                longest.max(MOMENTUM),
+            )
         } else {
-            ROUNDS
+            (ROUNDS, 0.0)
         };
         let mut moves = vec![[0.0; D]; self.free.len()];
         for round in 0..rounds {
             // The last ones come to rest.
-            let part = if is_endless && round + ROUNDS / 2 < rounds {
-                MOMENTUM
+            let part = if round + ROUNDS / 2 < rounds {
+                momentum
             } else {
                 0.0
             };

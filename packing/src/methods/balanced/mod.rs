@@ -267,10 +267,12 @@ fn place<const D: usize>(
         &sites,
     );
     let least = 0.5 * volume;
+    // Whoever sampled the surface counted in ∆s^D, and a part too thin for a point has no place for a site either.
+    let least_part = least.max(0.5 * problem.spacing().powi(D as i32));
     let (mut room, omitted) = rooms(
         parts,
         (samples, excess),
-        &vec![least; parts.problem.bodies.len()],
+        &vec![least_part; problem.bodies.len()],
     );
     let fluid = room.pop().unwrap_or(0.0);
     let pockets = Pockets::of(problem, &sites, &depths, fluid, least);
