@@ -23,6 +23,7 @@ mod lattices;
 mod mangle;
 mod marks;
 mod parsed;
+mod power_law;
 mod reliability;
 mod reproduction;
 mod rest;

@@ -10,7 +10,7 @@ mod surface;
 pub(crate) mod tests;
 pub(crate) mod topology;
 pub(crate) mod triangle;
-mod vanished;
+pub(crate) mod vanished;
 pub(crate) mod weld;
 
 use std::sync::{Arc, OnceLock};

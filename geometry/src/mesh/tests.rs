@@ -125,6 +125,40 @@ fn bracket() -> Mesh {
     Mesh::new(vertices, triangles).unwrap()
 }
 
+/// Sides of what is turned.
+const FACETS: usize = 64;
+
+/// A profile of radius and height, turned about z.
+fn turned(profile: &[[f64; 2]]) -> Mesh {
+    let count = profile.len() as u32;
+    let mut vertices = Vec::new();
+    let mut triangles = Vec::new();
+    for n in 0..FACETS as u32 {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(n) / FACETS as f64).sin_cos();
+        for (k, &[radius, high]) in (0..).zip(profile) {
+            vertices.push([radius * cos, radius * sin, high]);
+            let at = |n: u32, k: u32| n % FACETS as u32 * count + k % count;
+            let [a, b, c, d] = [at(n, k), at(n + 1, k), at(n + 1, k + 1), at(n, k + 1)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    Mesh::new(vertices, triangles).unwrap()
+}
+
+/// A pipe of inner radius 0.4 and this wall, with a flange at its foot.
+pub(crate) fn flanged(wall: f64) -> Mesh {
+    let (bore, rim, thick, high) = (0.4, 0.9, 0.2, 1.0);
+    let outer = bore + wall;
+    turned(&[
+        [bore, 0.0],
+        [rim, 0.0],
+        [rim, thick],
+        [outer, thick],
+        [outer, high],
+        [bore, high],
+    ])
+}
+
 fn ascii(mesh: &Mesh, upper: bool) -> String {
     let mut text = String::from("solid a part\n");
     for t in mesh.triangles() {

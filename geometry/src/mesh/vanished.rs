@@ -28,27 +28,36 @@ const FITS: f64 = 0.999;
 /// Every point of the body lies beneath a place of a face as deep as the ball that touches there goes, or around a reflex
 /// edge; what lies around reflex vertices alone is left out.
 pub(super) fn contents(mesh: &Mesh, depth: f64) -> Option<(f64, f64)> {
+    contents_of(mesh, depth, &|_| true, mesh.volume)
+}
+
+/// [`contents`] of the part of the surface that `counts`, of a body that has `volume` beneath that.
+pub(crate) fn contents_of(
+    mesh: &Mesh,
+    depth: f64,
+    counts: &(dyn Fn([f64; 3]) -> bool + Sync),
+    volume: f64,
+) -> Option<(f64, f64)> {
     let looks = (LOOKS * mesh.area / (depth * depth)).clamp(FEWEST, MOST_LOOKS);
-    let balls = balls(mesh, looks as usize, depth);
-    let thin = balls.iter().filter(|ball| ball.is_thin).count();
-    if (thin as f64) < SMALL * balls.len() as f64 {
+    let (looks, _) = balls(mesh, looks as usize, depth, counts);
+    let thin = looks.iter().filter(|ball| ball.is_thin).count();
+    if (thin as f64) < SMALL * looks.len() as f64 || looks.is_empty() {
         return None;
     }
-    let balls = self::balls(mesh, COUNTED, depth);
-    let each = mesh.area / balls.len() as f64;
+    let (balls, each) = balls(mesh, COUNTED, depth, counts);
     let fit = balls.iter().filter(|ball| ball.radius >= FITS * depth);
     let mut area = each * fit.count() as f64;
     let mut shell: f64 = each * balls.iter().map(|ball| ball.radius).sum::<f64>();
     let around: Vec<[f64; 2]> = (0..mesh.corners.len())
         .into_par_iter()
         .with_min_len(64)
-        .map(|t| around_edges(mesh, t, depth))
+        .map(|t| around_edges(mesh, t, depth, counts))
         .collect();
     for [strip, sector] in around {
         area += strip;
         shell += sector;
     }
-    Some((area, (mesh.volume - shell).max(0.0)))
+    Some((area, (volume - shell).max(0.0)))
 }
 
 struct Beneath {
@@ -58,8 +67,17 @@ struct Beneath {
     is_thin: bool,
 }
 
-fn balls(mesh: &Mesh, count: usize, depth: f64) -> Vec<Beneath> {
-    (mesh.scatter(count).par_iter().with_min_len(64))
+/// Of so many places on all of the mesh those that count, and the area that each stands for.
+fn balls(
+    mesh: &Mesh,
+    count: usize,
+    depth: f64,
+    counts: &(dyn Fn([f64; 3]) -> bool + Sync),
+) -> (Vec<Beneath>, f64) {
+    let feet = mesh.scatter(count);
+    let each = mesh.area / feet.len().max(1) as f64;
+    let balls = (feet.par_iter().with_min_len(64))
+        .filter(|foot| counts(foot.point))
         .map(|foot| {
             let inward = point::scale(foot.normal, -1.0);
             let ball = Touching::at(mesh, foot.point, inward, depth);
@@ -68,11 +86,17 @@ fn balls(mesh: &Mesh, count: usize, depth: f64) -> Vec<Beneath> {
                 is_thin: ball.radius < FITS * depth && ball.is_between_sides(inward),
             }
         })
-        .collect()
+        .collect();
+    (balls, each)
 }
 
 /// Area and volume around the reflex sides of a triangle, half of each: its neighbour has the other.
-fn around_edges(mesh: &Mesh, t: usize, depth: f64) -> [f64; 2] {
+fn around_edges(
+    mesh: &Mesh,
+    t: usize,
+    depth: f64,
+    counts: &(dyn Fn([f64; 3]) -> bool + Sync),
+) -> [f64; 2] {
     let corners = &mesh.corners[t];
     let mut sums = [0.0; 2];
     for k in 0..3 {
@@ -82,6 +106,9 @@ fn around_edges(mesh: &Mesh, t: usize, depth: f64) -> [f64; 2] {
         }
         let (a, b) = (corners[k], corners[(k + 1) % 3]);
         let middle = point::scale(point::add(a, b), 0.5);
+        if !counts(middle) {
+            continue;
+        }
         let ball = Touching::at(
             mesh,
             middle,
@@ -101,40 +128,10 @@ fn around_edges(mesh: &Mesh, t: usize, depth: f64) -> [f64; 2] {
 mod tests {
     use std::f64::consts::PI;
 
+    use sphpack_neighbors::Domain;
+
     use super::*;
-
-    const FACETS: usize = 64;
-
-    /// A profile of radius and height, turned about z.
-    fn turned(profile: &[[f64; 2]]) -> Mesh {
-        let count = profile.len() as u32;
-        let mut vertices = Vec::new();
-        let mut triangles = Vec::new();
-        for n in 0..FACETS as u32 {
-            let (sin, cos) = (2.0 * PI * f64::from(n) / FACETS as f64).sin_cos();
-            for (k, &[radius, high]) in (0..).zip(profile) {
-                vertices.push([radius * cos, radius * sin, high]);
-                let at = |n: u32, k: u32| n % FACETS as u32 * count + k % count;
-                let [a, b, c, d] = [at(n, k), at(n + 1, k), at(n + 1, k + 1), at(n, k + 1)];
-                triangles.extend([[a, b, c], [a, c, d]]);
-            }
-        }
-        Mesh::new(vertices, triangles).unwrap()
-    }
-
-    /// A pipe of inner radius 0.4 and this wall, with a flange at its foot.
-    fn flanged(wall: f64) -> Mesh {
-        let (bore, rim, thick, high) = (0.4, 0.9, 0.2, 1.0);
-        let outer = bore + wall;
-        turned(&[
-            [bore, 0.0],
-            [rim, 0.0],
-            [rim, thick],
-            [outer, thick],
-            [outer, high],
-            [bore, high],
-        ])
-    }
+    use crate::mesh::tests::flanged;
 
     #[test]
     fn a_wall_that_vanishes_is_not_counted() {
@@ -189,5 +186,27 @@ mod tests {
             assert!(inset.closest_within(p, exact - 0.03).is_none());
             assert!(inset.closest_within(p, exact + 0.005).is_some());
         }
+    }
+
+    /// Cut by a side through the flange: of the inset the flange's upper half is left, of the pipe's wall nothing.
+    #[test]
+    fn a_wall_that_vanishes_within_a_box_is_not_counted() {
+        let depth = 0.05;
+        let domain = Domain::new([-2.0, -2.0, 0.1], [2.0, 2.0, 2.0]);
+        let body = flanged(0.07).continued(&domain).unwrap().unwrap();
+        let inset = body.inset(depth).unwrap();
+        let (bore, rim, high) = (0.4 + depth, 0.9 - depth, 0.2 - depth - 0.1);
+        let ring = PI * (rim * rim - bore * bore);
+        let area = ring + 2.0 * PI * (rim + bore) * high;
+        let (found, volume) = (inset.measure(), inset.volume());
+        assert!((found / area - 1.0).abs() < 0.04, "{found} {area}");
+        assert!(
+            (volume / (ring * high) - 1.0).abs() < 0.06,
+            "{volume} {}",
+            ring * high
+        );
+        // From the wall the flange is what is near.
+        let hit = inset.closest([0.435, 0.0, 0.8]);
+        assert!((hit.distance - 0.65).abs() < 0.03, "{hit:?}");
     }
 }

@@ -249,7 +249,8 @@ Below are random bodies at one spacing each, judged by their own formulas: none 
 0.12 ∆s inside, its volume to half a particle or 1 %, no two particles nearer than half a spacing.
 *Walls* and *periodic cells* pass a side of the box, lie on one, are as long as the box or meet their images, in the plane and in space; volumes
 are by counting cells of the box, images are counted. *Thin* are strips and plates of 0.02 to 6 ∆s at any angle, two in five of them watertight:
-then no gap along the middle of a strip is wider than 1.2 ∆s, no hole of a plate wider than that times √2. *Contacts* are blocks of one
+then no gap along the middle of a strip is wider than 1.2 ∆s, no hole of a plate wider than that times √2, a fifth more than in a layer of
+squares. *Contacts* are blocks of one
 file that share a side, a part of one, an edge or a point, or are flush at their ends; no surface particle is on an inner wall. *Turned parts* are
 pipes with flanges or fins, cones, needles, sharp rings and cups, at 1/25 to 1/50 of the diagonal.
 

@@ -14,7 +14,6 @@ mod pareto;
 mod points;
 mod shapes;
 mod sheet;
-mod slope;
 mod table;
 
 use std::path::PathBuf;

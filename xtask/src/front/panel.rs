@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::labels::placed;
 use super::pareto::front;
-use super::slope::Power;
 use crate::chart::{Axis, Scale, number};
+use crate::power_law::PowerLaw;
 
 /// Size of a panel, and the room around its axes: left, right, top, bottom.
 pub(super) const SIZE: [f64; 2] = [480.0, 340.0];
@@ -31,7 +31,7 @@ pub(super) struct Panel {
     pub(super) titles: [&'static str; 2],
     pub(super) dots: Vec<Dot>,
     /// Through all points, in place of a front.
-    pub(super) law: Option<Power>,
+    pub(super) law: Option<PowerLaw>,
 }
 
 /// The dots that nothing else beats among those that may be there.

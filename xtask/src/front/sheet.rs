@@ -7,7 +7,7 @@ use super::figures::Figures;
 use super::panel::{Dot, Panel, SIZE, best};
 use super::points::{DEFAULT, Factor, Place, Point};
 use super::shapes::{SHAPES, shape};
-use super::slope::Power;
+use crate::power_law::PowerLaw;
 
 /// A surface with less of its particles is not that of the body: a lattice that is cut at it leaves nothing on it and is as even as
 /// any lattice.
@@ -105,9 +105,9 @@ impl Sheet {
     }
 
     /// How the default's seconds grow with the number of particles.
-    pub(super) fn growth(&self) -> Option<Power> {
+    pub(super) fn growth(&self) -> Option<PowerLaw> {
         let places: Vec<[f64; 2]> = self.finer().iter().map(|dot| dot.at).collect();
-        Power::through(&places)
+        PowerLaw::through(&places)
     }
 
     /// The picture.

@@ -10,7 +10,6 @@ mod page;
 mod row;
 mod rows;
 mod setup;
-mod slope;
 mod subject;
 mod trials;
 
@@ -19,6 +18,7 @@ use std::fmt::Write as _;
 use std::fs;
 
 use crate::arguments::Arguments;
+use crate::power_law::PowerLaw;
 use crate::selection::Selection;
 use crate::workspace::root;
 use claims::{FIGURES, KNOWN_MISSES};
@@ -30,7 +30,6 @@ use page::{Result as Ended, Verdict, figure, published};
 use row::{Row, Taken};
 use rows::rows;
 use setup::Setup;
-use slope::slope;
 
 /// The papers that have rows.
 const PAPERS: &str = "000|001|002|003|004";
@@ -147,10 +146,14 @@ fn number(row: &Row, own: &Measured, others: &[Measured]) -> Option<(f64, Vec<[f
     match &row.taken {
         Taken::Alone => Some((own, Vec::new())),
         Taken::Over(_) => Some((others.first()? / own, Vec::new())),
-        Taken::Slope(setups) => Some((slope(&over(spacing, setups))?.slope, Vec::new())),
-        Taken::SlopeError(setups) => {
-            Some((slope(&over(spacing, setups))?.standard_error, Vec::new()))
-        }
+        Taken::Slope(setups) => Some((
+            PowerLaw::through(&over(spacing, setups))?.exponent,
+            Vec::new(),
+        )),
+        Taken::SlopeError(setups) => Some((
+            PowerLaw::through(&over(spacing, setups))?.standard_error,
+            Vec::new(),
+        )),
         Taken::Greatest(setups) => {
             let curve = over(|setup| setup.h_over_spacing.unwrap_or(f64::NAN), setups);
             let greatest = curve

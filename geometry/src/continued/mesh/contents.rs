@@ -10,7 +10,7 @@ use crate::mesh::{Mesh, inset, triangle};
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Contents {
     area: f64,
-    volume: f64,
+    pub(super) volume: f64,
     /// Σ ℓ w over edges and Σ c over vertices within the box, as Steiner's expansion has them.
     edges: f64,
     vertices: f64,

@@ -7,10 +7,10 @@ use sphpack_neighbors::{Bounds, Domain};
 use super::super::features::features_in;
 use super::super::window::holds;
 use super::super::{Continued, Whole};
-use super::contents::{self, Contents};
+use super::contents;
 use crate::GeometryError;
 use crate::level_inset::LevelInset;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, vanished};
 use crate::sample::{Candidates, QUICK, THOROUGH, spread};
 use crate::surface::{Closest, Features, Surface};
 
@@ -20,7 +20,8 @@ pub(super) struct Moved {
     mesh: Arc<Mesh>,
     depth: f64,
     inset: LevelInset<3>,
-    contents: OnceLock<Contents>,
+    /// Area and volume within the box, once asked for.
+    contents: OnceLock<(f64, f64)>,
 }
 
 impl Moved {
@@ -82,10 +83,12 @@ impl Surface<3> for Moved {
 
 impl Whole<3> for Moved {
     fn contents(&self, domain: &Domain<3>) -> (f64, f64) {
-        let contents = self
-            .contents
-            .get_or_init(|| contents::of(&self.mesh, domain));
-        contents.moved_in(self.depth)
+        *self.contents.get_or_init(|| {
+            let all = contents::of(&self.mesh, domain);
+            let is_within = |p| holds(p, domain, 0.0);
+            vanished::contents_of(&self.mesh, self.depth, &is_within, all.volume)
+                .unwrap_or_else(|| all.moved_in(self.depth))
+        })
     }
 
     fn moved_in(&self, depth: f64) -> Result<Arc<dyn Whole<3>>, GeometryError> {
