@@ -12,6 +12,9 @@ use crate::thickness::Touching;
 const ROUNDS: usize = 40;
 const FEW: usize = 8;
 
+/// A part thicker than so many spacings has more points than one row holds, which part into two the sooner the more they are moved.
+const ROW: f64 = 1.1;
+
 /// Times more that many do, and besides so many for every point across. What is uneven over many points evens out slowly, the
 /// slower where no tips hold it: a point goes on by a part of its last move, this one or what the longest wave asks for.
 const SLOW_ROUNDS: usize = 120;
@@ -68,9 +71,9 @@ pub(super) fn along<const D: usize>(
             sites,
             free,
         };
-        set.settle()?;
+        set.settle(shares.spacing)?;
         set.reach_tips(shares.spacing)?;
-        set.settle()?;
+        set.settle(shares.spacing)?;
         set.sites.truncate(set.free.len());
         let nearest = tree(&places.iter().map(|place| place.point).collect::<Vec<_>>())?;
         for p in set.sites {
@@ -159,9 +162,11 @@ struct Set<'a, const D: usize> {
 
 impl<const D: usize> Set<'_, D> {
     /// Moves free points to the weighted middle of the places nearest to them.
-    fn settle(&mut self) -> Result<(), GeometryError> {
+    fn settle(&mut self, spacing: f64) -> Result<(), GeometryError> {
         let power = 2.0 / (D as f64 - 1.0);
-        let is_slow = self.free.len() > FEW || self.body.window().is_some();
+        let thickest = self.part.places.iter().map(|place| place.thickness);
+        let is_row = thickest.fold(0.0, f64::max) <= ROW * spacing;
+        let is_slow = is_row && self.free.len() > FEW || self.body.window().is_some();
         let across = (self.free.len() as f64).powf(1.0 / (D as f64 - 1.0));
         let (rounds, momentum) = if is_slow {
             let longest = 1.0 - std::f64::consts::TAU / across;

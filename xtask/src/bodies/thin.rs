@@ -17,8 +17,8 @@ const HOLE: f64 = 1.2;
 /// A plate's, the same part more than in a square of four at ∆s, by its radius.
 const PLATE_HOLE: f64 = 0.5 * HOLE * std::f64::consts::SQRT_2;
 
-/// What of the plane is looked at, along a side.
-const STEPS: usize = 120;
+/// Places that are looked at, along a strip and along each side of a plate: a hundredth of ∆s apart, and a twentieth.
+const STEPS: [usize; 2] = [3000, 300];
 
 /// A strip or a plate.
 #[derive(Debug)]
@@ -77,13 +77,14 @@ impl Plate {
         } else {
             PLATE_HOLE
         } * self.spacing;
-        let across = if self.dimension == 2 { 1 } else { STEPS };
+        let steps = STEPS[self.dimension - 2];
+        let across = if self.dimension == 2 { 1 } else { steps };
         let at = |k: usize, count: usize| (k as f64 + 0.5) / count as f64 * 2.0 - 1.0;
-        (0..STEPS).any(|i| {
+        (0..steps).any(|i| {
             (0..across).any(|j| {
-                let mut p = [at(i, STEPS) * self.half[0], 0.0, 0.0];
+                let mut p = [at(i, steps) * self.half[0], 0.0, 0.0];
                 if self.dimension == 3 {
-                    p[1] = at(j, STEPS) * self.half[1];
+                    p[1] = at(j, steps) * self.half[1];
                 }
                 !(solid.iter())
                     .any(|q| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>() <= far * far)
