@@ -248,7 +248,12 @@ where
         ..scene.clone()
     };
     let domain = domain(scene, &all);
-    let cut = beyond::go_on(scene, &mut all, &domain)?;
+    // A body is carried on as far as the box goes: not through one that no memory can fill.
+    let hopeless = hopeless_bytes(scene, &domain).filter(|&bytes| bytes > allowed_bytes);
+    let cut = match hopeless {
+        Some(_) => Vec::new(),
+        None => beyond::go_on(scene, &mut all, &domain)?,
+    };
     let mut bodies = Vec::new();
     let mut loops = Vec::new();
     let mut repairs = Vec::new();
@@ -332,7 +337,7 @@ where
     } else {
         reading
     };
-    estimate.memory_bytes = estimate.memory_bytes.max(last);
+    estimate.memory_bytes = (estimate.memory_bytes.max(last)).max(hopeless.unwrap_or(0.0));
     let particles = estimate.particles + estimate.frozen;
     if !particles.is_finite() || !estimate.memory_bytes.is_finite() {
         return Err(Error::Scene {
@@ -401,6 +406,14 @@ fn refuse_giants<const D: usize>(scene: &Scene, all: &[Built<D>]) -> Result<(), 
         }
     }
     Ok(())
+}
+
+/// What the positions alone take of particles of one size all over the box; `None` where they may be only in a part of it, or larger.
+fn hopeless_bytes<const D: usize>(scene: &Scene, domain: &Domain<D>) -> Option<f64> {
+    let is_all_over =
+        scene.refinement.is_none() && scene.body.iter().all(|body| body.role == Role::Solid);
+    let particles = domain.bounds.volume() / scene.spacing.powi(D as i32);
+    is_all_over.then_some(particles * (D * size_of::<f64>()) as f64)
 }
 
 /// Solid bodies may touch, but not claim the same room. What is in a void or a container is another matter.

@@ -94,18 +94,28 @@ fn quoted(field: &str) -> String {
     }
 }
 
+/// No header has so many bytes.
+const LONGEST_LINE: usize = 1 << 20;
+
 /// Reads particles: names with x and y at least, in a header or a comment above the numbers, or none above two or three
 /// columns of numbers; fields separated by commas, semicolons, tabs or spaces.
 ///
 /// # Errors
 /// [`Error::Input`] with the line.
 pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Columns, Error> {
-    let text = std::str::from_utf8(bytes).map_err(|_| {
-        Error::input(
-            path,
-            "this is not text; a particle CSV has a header line with x,y and numbers below",
-        )
-    })?;
+    // Bytes that no text has, or a line that is no row: seen before anything is made of them that takes as much memory again.
+    let first = bytes.iter().position(|&byte| byte == b'\n' || byte == 0);
+    let is_line = first.map_or(bytes.len() <= LONGEST_LINE, |at| {
+        bytes[at] != 0 && at <= LONGEST_LINE
+    });
+    let text = (is_line.then(|| std::str::from_utf8(bytes)))
+        .and_then(Result::ok)
+        .ok_or_else(|| {
+            Error::input(
+                path,
+                "this is not text in lines; a particle CSV has a header line with x,y and numbers below",
+            )
+        })?;
     let text = text.trim_start_matches('\u{feff}');
     let Header {
         names,

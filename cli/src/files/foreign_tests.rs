@@ -42,6 +42,24 @@ fn npz_that_would_fill_the_memory() {
 }
 
 #[test]
+fn csv_that_is_no_text_in_lines() {
+    let endless = vec![b'7'; 3 << 20];
+    let late = [&endless[..], b"\n1,2\n"].concat();
+    for bytes in [
+        &b"x,y\0\n1,2\n"[..],
+        &[0; 4096],
+        &endless,
+        &late,
+        b"x,y\n\xff,1\n",
+    ] {
+        let message = read_csv(bytes, Path::new("p.csv")).unwrap_err().to_string();
+        assert!(message.contains("not text in lines"), "{message}");
+    }
+    let columns = read_csv(b"x,y\n1,2", Path::new("p.csv")).unwrap();
+    assert_eq!(columns.numbers["y"], [2.0]);
+}
+
+#[test]
 fn vtk_of_others() {
     let text = "# vtk DataFile Version 5.1\nvtk output\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n1 2 0\n3 4 0\n\
         METADATA\nINFORMATION 0\n\nVERTICES 3 2\nOFFSETS vtktypeint64\n0 1 2\nCONNECTIVITY vtktypeint64\n0 1\n\

@@ -199,3 +199,23 @@ fn solids_that_overlap_are_named() {
         &["\"plate\" crosses", "\"disc\""],
     );
 }
+
+/// A body on a side would be carried on as far as the box goes, for minutes; that nobody can hold so much is known before.
+#[test]
+fn a_box_beyond_all_memory_is_refused_at_once() {
+    let scene = "spacing = 1.0
+[domain]
+min = [0.0, 0.0, 0.0]
+max = [12.0, 8.0, 1e12]
+[[body]]
+name = \"ball\"
+shape = { sphere = { center = [6.0, 4.0, 3.0], radius = 3.0 } }
+";
+    let desk = Desk::new().with("scene.toml", scene);
+    let begin = std::time::Instant::now();
+    desk.refuse(
+        &["pack", "scene.toml", "--dry-run"],
+        &["of memory, more than the", "particles"],
+    );
+    assert!(begin.elapsed().as_secs() < 20);
+}

@@ -15,6 +15,9 @@ fn words(error: std::io::Error) -> String {
 
 /// Memory that is enough to refuse what is short, and what is as long as a scene may be.
 const LITTLE: &str = "ulimit -v 700000";
+
+/// Room for a file of two gibibytes, once.
+const AS_LARGE: &str = "ulimit -v 3000000";
 const MORE: &str = "ulimit -v 1500000";
 
 /// The commands that read a file of this ending.
@@ -74,9 +77,17 @@ pub(super) fn no_end(desk: &Desk<'_>, random: &mut Random) -> Result<Outcome, St
     let name = NAMES[random.below(NAMES.len())];
     let path = desk.folder.join(name);
     let file = File::create(&path).map_err(words)?;
+    let mut limit = LITTLE;
     match random.below(3) {
         // Nothing but zeros, which take no room on the disk.
-        0 => file.set_len(1 << random.whole(20, 40)).map_err(words)?,
+        0 => {
+            let power = random.whole(20, 40);
+            file.set_len(1 << power).map_err(words)?;
+            // What is there may be held in memory before it is refused; what only says that it is there may not.
+            if (28..=31).contains(&power) {
+                limit = AS_LARGE;
+            }
+        }
         1 => fs::write(&path, vec![b'['; random.whole(1, 9_000_000)]).map_err(words)?,
         _ => {
             if !desk.has_nobody() {
@@ -93,7 +104,7 @@ pub(super) fn no_end(desk: &Desk<'_>, random: &mut Random) -> Result<Outcome, St
             return Ok(Outcome::Refused);
         }
     }
-    refused(desk, name, &[name], LITTLE)
+    refused(desk, name, &[name], limit)
 }
 
 /// As long as scenes may be, and longer.
