@@ -48,6 +48,12 @@ const LOOKED_AT: i64 = 9;
 /// Cells that are counted, in spacings: s^−D is right to some thousandths there where spacings grow by less than 10 %.
 const COUNTED: f64 = 2.0;
 
+/// Cells that are counted first, to see how many there will be: what they say is a tenth or two too little.
+const COARSE: f64 = 16.0;
+
+/// Cells at most: two million take some seconds.
+const MOST_CELLS: usize = 1 << 21;
+
 fn count_in_cell<const D: usize, F: SpacingField<D> + ?Sized>(
     field: &F,
     surface: &dyn Surface<D>,
@@ -146,19 +152,39 @@ impl<const D: usize> Resolution<D> {
         })
     }
 
-    /// How many particles a box asks for: ∫ s^−D dV, by cells as small as the spacings in them. With it how many of those are
-    /// within so many of their spacings of a side that is not periodic.
+    /// How many particles a box asks for: ∫ s^−D dV, by cells as small as the spacings in them, or larger ones where these would be too
+    /// many. With it how many of those are within so many of their spacings of a side that is not periodic. Infinite where they
+    /// cannot be counted.
     pub fn count_in_box(&self, domain: &Domain<D>, spacings: f64) -> [f64; 2] {
+        let first = self.count_by(COARSE, domain, spacings);
+        let fits = |counted: &f64| {
+            // On the way down as many again are looked at, and halving leaves the last a third smaller than allowed.
+            let cells = 2.0 * first[0] / (counted / 1.5).powi(D as i32);
+            cells < MOST_CELLS as f64
+        };
+        let counted = [COUNTED, 2.0 * COUNTED, 4.0 * COUNTED];
+        let finer = (counted.into_iter().find(fits))
+            .map_or(first, |counted| self.count_by(counted, domain, spacings));
+        if finer[0].is_finite() { finer } else { first }
+    }
+
+    /// [`Resolution::count_in_box`] by cells of so many spacings.
+    fn count_by(&self, counted: f64, domain: &Domain<D>, spacings: f64) -> [f64; 2] {
         let mut sums = [0.0; 2];
         let mut left = vec![(domain.bounds, 0)];
+        let mut cells = 0;
         while let Some((cell, halvings)) = left.pop() {
+            cells += 1;
+            if cells > 2 * MOST_CELLS {
+                return [f64::INFINITY; 2];
+            }
             let spacing = self.at(cell.center()).value;
             let size = cell.size();
             let axis = (0..D).fold(
                 0,
                 |longest, k| if size[k] > size[longest] { k } else { longest },
             );
-            if size[axis] > spacing * COUNTED && halvings < MOST_HALVINGS * D {
+            if size[axis] > spacing * counted && halvings < MOST_HALVINGS * D {
                 left.extend(cell.halves(axis).map(|half| (half, halvings + 1)));
                 continue;
             }

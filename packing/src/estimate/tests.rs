@@ -6,6 +6,7 @@ use sphpack_neighbors::Domain;
 
 use super::*;
 use crate::confinement::Confinement;
+use crate::{Resolution, Spacing, SpacingFunction};
 
 const PLAIN: Work = Work::PLAIN;
 
@@ -169,4 +170,29 @@ fn images_across_periodic_sides_are_seen() {
     let (open, closed) = (of(&problem, &many), of(&periodic, &many));
     assert_eq!(closed.frozen, 0.0);
     assert!(closed.memory_bytes > 0.8 * open.memory_bytes);
+}
+
+/// Spacings that grow along x as a + g x: ∫ s⁻² over the unit square is (1/a − 1/(a + g)) / g.
+#[test]
+fn particles_of_a_field_are_counted_or_said_to_be_too_many() {
+    let growth = 0.08;
+    for (least, near) in [
+        (1e-2, 0.01),
+        (1e-4, 0.01),
+        (2e-6, 0.1),
+        (1e-12, f64::INFINITY),
+    ] {
+        let field = SpacingFunction::new([least, 1.0], move |p: [f64; 2]| Spacing {
+            value: least + growth * p[0],
+            gradient: [growth, 0.0],
+        });
+        let domain = Domain::new([0.0; 2], [1.0; 2]);
+        let [count, _] = Resolution::from(field).count_in_box(&domain, 0.0);
+        let exact = (1.0 / least - 1.0 / (least + growth)) / growth;
+        assert!(
+            (count / exact - 1.0).abs() <= near,
+            "{least}: {count}, {exact}"
+        );
+        assert_eq!(count.is_finite(), near < 1.0, "{least}: {count}");
+    }
 }
