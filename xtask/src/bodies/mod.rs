@@ -243,7 +243,7 @@ Regenerate this page with `cargo xtask bodies --write`. Every body is packed at 
 part to half of it, by the default method. The judge tells by winding numbers and plain shapes which part or pocket a
 particle is in, and compares their volumes with the exact ones. *Right*: every part and every pocket has its mass to half a
 particle, or to 1 % where that is more. *Even*: L∞ of the density at most {:.1} % and no pair nearer than {CLOSEST} ∆s.
-*Said*: exit status 3 with the place and the cure. *Wrong*: done, but a mass is off.
+*Said*: exit status 3 with the place and the cure. *Wrong*: done, but a mass is off, or what else is asked.
 
 Below are random bodies at one spacing each, judged by their own formulas: none of the body outside it, none of the fluid more than
 0.12 ∆s inside, its volume to half a particle or 1 %, no two particles nearer than half a spacing.
@@ -253,6 +253,9 @@ then no gap along the middle of a strip is wider than 1.2 ∆s, no hole of a pla
 squares. *Contacts* are blocks of one
 file that share a side, a part of one, an edge or a point, or are flush at their ends; no surface particle is on an inner wall. *Turned parts* are
 pipes with flanges or fins, cones, needles, sharp rings and cups, at 1/25 to 1/50 of the diagonal.
+
+What is wrong among the thin are watertight plates with a hole a little larger than that, at a rim, or where a plate is just one
+spacing thick and a particle is missing from its layer.
 
 What is not even is coarse, and almost all of it lies where sides are a half-odd number of ∆s apart: what a wall is to hold beside a
 row for every ∆s of its sides does not make a row of its own. Long sides make room, their particles slide; short ones between corners, which
