@@ -166,7 +166,9 @@ impl<const D: usize> Set<'_, D> {
         let power = 2.0 / (D as f64 - 1.0);
         let thickest = self.part.places.iter().map(|place| place.thickness);
         let is_row = thickest.fold(0.0, f64::max) <= ROW * spacing;
-        let is_slow = is_row && self.free.len() > FEW || self.body.window().is_some();
+        // Beside an inset, which pushes points away, a sheet's points could be thrown onto each other.
+        let is_alone = D == 2 || self.inset.is_none();
+        let is_slow = is_row && is_alone && self.free.len() > FEW || self.body.window().is_some();
         let across = (self.free.len() as f64).powf(1.0 / (D as f64 - 1.0));
         let (rounds, momentum) = if is_slow {
             let longest = 1.0 - std::f64::consts::TAU / across;
