@@ -222,9 +222,8 @@ fn write_page(results: &[Ended], is_quick: bool) -> Result<(), String> {
          `cargo xtask reproduce-paper --data DIR --write`, where DIR holds `bunny.stl`; pictures and a page of all are then in\n\
          `target/reproduction/index.html`. Published numbers are from the papers' texts and tables. A row *holds* where ours is within its bar,\n\
          rows *beside* are not judged; a ratio is the named method's number over the first one's. A slope is fitted in logarithms. Curves, of the repulsion and\n\
-         of errors against h/∆s, are in `target/reproduction` as CSV and SVG: by the quintic kernel an even packing interpolates a derivative within 1 % as\n\
-         well as its lattice from h/∆s = 1.2 on, and 24 % worse at 1.0; by Wendland's C2 1 to 10 % worse from 1.0 to 2.0. Times are wall-clock seconds of the\n\
-         packing and depend on the machine.\n\n{HEAD}",
+         of errors against h/∆s, are in `target/reproduction` as CSV and SVG. Times are wall-clock seconds of the packing and depend on the\n\
+         machine.\n\n{HEAD}",
         if is_quick {
             " (the quick rows only)"
         } else {
