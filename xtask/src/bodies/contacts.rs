@@ -5,7 +5,7 @@ use std::path::Path;
 use sphpack::Outcome;
 use sphpack_packing::Kind;
 
-use super::drawn::{COINCIDENT, DEEP, Drawn, is_deep};
+use super::drawn::{DEEP, Drawn, faults_of, is_deep};
 use super::frame::{Frame, outside_block};
 use super::space;
 use crate::scene_fuzz::random::Random;
@@ -131,28 +131,15 @@ impl Drawn for Touching {
                 sunk += usize::from(deep(DEEP));
             }
         }
-        let mut faults = Vec::new();
-        for (count, what) in [
-            (strayed, "of the body outside it"),
-            (sunk, "of fluid in the body"),
-            (inner, "on an inner wall"),
-        ] {
-            if count > 0 {
-                faults.push(format!("{count} particles {what}"));
-            }
-        }
-        let each = self.spacing.powi(3);
         let exact: f64 = (self.blocks.iter())
             .map(|[low, high]| (0..3).map(|k| high[k] - low[k]).product::<f64>())
             .sum();
-        if (held - exact).abs() > (0.5 * each).max(0.01 * exact) {
-            faults.push(format!("{:+.2} particles of volume", (held - exact) / each));
-        }
-        let closest = outcome.report.closest_pair_over_spacing;
-        if closest < COINCIDENT {
-            faults.push(format!("two particles are {closest:.3} apart"));
-        }
-        faults
+        let counts = [
+            (strayed, "particles of the body outside it"),
+            (sunk, "particles of fluid in the body"),
+            (inner, "particles on an inner wall"),
+        ];
+        faults_of(outcome, &counts, [held, exact])
     }
 }
 

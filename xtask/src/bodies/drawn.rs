@@ -20,6 +20,28 @@ pub(super) trait Drawn {
     fn faults(&self, outcome: &Outcome) -> Vec<String>;
 }
 
+/// What is wrong by what was counted, a volume held beside the exact one, and the closest pair.
+pub(super) fn faults_of(
+    outcome: &Outcome,
+    counts: &[(usize, &str)],
+    [held, exact]: [f64; 2],
+) -> Vec<String> {
+    let mut faults: Vec<String> = (counts.iter())
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| format!("{count} {what}"))
+        .collect();
+    let each = (outcome.report.spacing).powi(outcome.report.dimension as i32);
+    // Half a particle, or one in a hundred.
+    if (held - exact).abs() > (0.5 * each).max(0.01 * exact) * (1.0 + 1e-9) {
+        faults.push(format!("{:+.2} particles of volume", (held - exact) / each));
+    }
+    let closest = outcome.report.closest_pair_over_spacing;
+    if closest < COINCIDENT {
+        faults.push(format!("two particles are {closest:.3} apart"));
+    }
+    faults
+}
+
 /// Whether a body holds a place and all that is as far as `far` around it, in sixty directions.
 pub(super) fn is_deep(
     dimension: usize,

@@ -6,7 +6,7 @@ use std::path::Path;
 use sphpack::Outcome;
 use sphpack_packing::Kind;
 
-use super::drawn::{COINCIDENT, DEEP, Drawn};
+use super::drawn::{DEEP, Drawn, faults_of};
 use super::frame::{Frame, outside_block};
 use super::space;
 use crate::scene_fuzz::random::Random;
@@ -139,27 +139,19 @@ impl Drawn for Plate {
                 sunk += usize::from(out < -DEEP * self.spacing);
             }
         }
-        let mut faults = Vec::new();
-        if strayed > 0 {
-            faults.push(format!("{strayed} particles of the body outside it"));
-        }
-        if sunk > 0 {
-            faults.push(format!("{sunk} particles of fluid in the body"));
-        }
-        let each = self.spacing.powi(self.dimension as i32);
-        let exact = self.volume();
-        if self.is_watertight {
-            if self.leaks(&solid) {
-                faults.push("a hole".to_owned());
-            }
-        } else if (held - exact).abs() > (0.5 * each).max(0.01 * exact) * (1.0 + 1e-9) {
-            faults.push(format!("{:+.2} particles of volume", (held - exact) / each));
-        }
-        let closest = outcome.report.closest_pair_over_spacing;
-        if closest < COINCIDENT {
-            faults.push(format!("two particles are {closest:.3} apart"));
-        }
-        faults
+        // What is watertight weighs what it must.
+        let exact = if self.is_watertight {
+            held
+        } else {
+            self.volume()
+        };
+        let holes = usize::from(self.is_watertight && self.leaks(&solid));
+        let counts = [
+            (strayed, "particles of the body outside it"),
+            (sunk, "particles of fluid in the body"),
+            (holes, "hole at least"),
+        ];
+        faults_of(outcome, &counts, [held, exact])
     }
 }
 

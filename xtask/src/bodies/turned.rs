@@ -6,7 +6,7 @@ use std::path::Path;
 use sphpack::Outcome;
 use sphpack_packing::Kind;
 
-use super::drawn::{COINCIDENT, DEEP, Drawn, is_deep};
+use super::drawn::{DEEP, Drawn, faults_of, is_deep};
 use super::frame::Frame;
 use super::shapes::Shape;
 use super::space::{self, Triangle};
@@ -166,25 +166,12 @@ impl Drawn for Turned {
                 sunk += usize::from(is_deep(3, far, own, |p| self.holds(p)));
             }
         }
-        let mut faults = Vec::new();
-        for (count, what) in [
-            (strayed, "of the body outside it"),
-            (sunk, "of fluid in the body"),
-        ] {
-            if count > 0 {
-                faults.push(format!("{count} particles {what}"));
-            }
-        }
-        let each = self.spacing.powi(3);
-        let exact = space::volume(&self.triangles());
-        if (held - exact).abs() > (0.5 * each).max(0.01 * exact) {
-            faults.push(format!("{:+.2} particles of volume", (held - exact) / each));
-        }
-        let closest = outcome.report.closest_pair_over_spacing;
-        if closest < COINCIDENT {
-            faults.push(format!("two particles are {closest:.3} apart"));
-        }
-        faults
+        let exact: f64 = space::volume(&self.triangles());
+        let counts = [
+            (strayed, "particles of the body outside it"),
+            (sunk, "particles of fluid in the body"),
+        ];
+        faults_of(outcome, &counts, [held, exact])
     }
 }
 
