@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use sphpack_neighbors::{KdTree, point};
 
 use super::planes::Planes;
@@ -30,26 +29,32 @@ pub(super) struct Anchors<const D: usize> {
 impl<const D: usize> LevelInset<D> {
     /// The points under some of the original's, where the body is thick enough for any.
     fn anchors(&self) -> Option<&Anchors<D>> {
-        let found = self.anchors.get_or_init(|| {
-            let wanted = DENSITY * self.surface.measure() / self.depth.powi(D as i32 - 1);
-            let feet = self.surface.scatter(wanted.clamp(FEWEST, MOST) as usize);
-            let points: Vec<([f64; D], [f64; D])> = (feet.par_iter().with_min_len(64))
-                .filter_map(|foot| {
-                    let below = point::add_scaled(foot.point, -self.depth, foot.normal);
-                    let at = self.surface.closest(below);
-                    let (off, found, normal) =
-                        self.descend(below, (below, at), &mut Planes::default(), false);
-                    (off <= 10.0 * ON_SET * self.depth).then_some((found, normal))
-                })
-                .collect();
-            let places: Vec<[f64; D]> = points.iter().map(|(at, _)| *at).collect();
-            let tree = KdTree::new(&places).ok()?;
-            Some(Anchors {
-                points,
-                tree: Arc::new(tree),
+        if self.anchors.get().is_none() {
+            // Whoever asks first may be one of many threads that wait for each other: nobody waits for this one. What two of them
+            // find is the same, and the second is dropped.
+            let _ = self.anchors.set(self.scattered_anchors());
+        }
+        self.anchors.get()?.as_ref()
+    }
+
+    fn scattered_anchors(&self) -> Option<Anchors<D>> {
+        let wanted = DENSITY * self.surface.measure() / self.depth.powi(D as i32 - 1);
+        let feet = self.surface.scatter(wanted.clamp(FEWEST, MOST) as usize);
+        let points: Vec<([f64; D], [f64; D])> = (feet.iter())
+            .filter_map(|foot| {
+                let below = point::add_scaled(foot.point, -self.depth, foot.normal);
+                let at = self.surface.closest(below);
+                let (off, found, normal) =
+                    self.descend(below, (below, at), &mut Planes::default(), false);
+                (off <= 10.0 * ON_SET * self.depth).then_some((found, normal))
             })
-        });
-        found.as_ref()
+            .collect();
+        let places: Vec<[f64; D]> = points.iter().map(|(at, _)| *at).collect();
+        let tree = KdTree::new(&places).ok()?;
+        Some(Anchors {
+            points,
+            tree: Arc::new(tree),
+        })
     }
 
     /// The closest point where the body beside `p` is too thin to have a level set, so that no way down from `p` ends on

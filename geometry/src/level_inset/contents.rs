@@ -12,8 +12,7 @@ const LOOK: usize = 12;
 const CLIMB: usize = 200;
 
 /// Parts of the depth that do not count: a plate as thick as two depths has a level set, of two sheets in one place, whatever rounding
-/// says. Without it its points would be found midway between its sides, which leaves them less even (pairs 0.6 … 0.7 spacings
-/// apart for 0.9).
+/// says. Without it its points would be found midway between its sides, which leaves them less even.
 const EXACT: f64 = 1e-6;
 
 /// Whether the body has a point as deep as `depth`.
