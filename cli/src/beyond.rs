@@ -22,7 +22,7 @@ const MOST_PERIODS: [f64; 2] = [16.0, 2.0];
 /// Part of a period by which a body may be longer and still be as long: numbers of single precision are.
 const AS_LONG: f64 = 1e-5;
 
-/// A part of a body smaller than this is none.
+/// A part of a body, or of the box, smaller than this is none.
 const NOTHING: f64 = 1e-9;
 
 /// Solid bodies go on beyond the sides of the box that they pass, or lie on: there they have no surface. Gives a sentence for each
@@ -88,7 +88,7 @@ where
             continue;
         };
         let (volume, whole) = (continued.volume(), built.surface.volume());
-        if volume <= NOTHING * whole {
+        if volume <= NOTHING * whole.min(domain.bounds.volume()) {
             return Err(fail(format!(
                 "body \"{}\" lies outside the domain (body from {}); enlarge the domain, move the body, or leave it out",
                 body.name,
@@ -96,8 +96,12 @@ where
             )));
         }
         if !sides.is_empty() {
+            let of = match built.is_cut {
+                true => String::new(),
+                false => format!(" of its {whole:.4e}"),
+            };
             told.push(format!(
-                "body \"{}\" reaches beyond the {} of the domain and is cut there: {volume:.4e} of its {whole:.4e} is inside",
+                "body \"{}\" reaches beyond the {} of the domain and is cut there: {volume:.4e}{of} is inside",
                 body.name,
                 sides.join(" and ")
             ));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sphpack_geometry::{BodyFormat, Continued, GeometryError, Mesh, Outline, Similarity, Surface};
-use sphpack_neighbors::Domain;
+use sphpack_neighbors::{Bounds, Domain};
 use sphpack_packing::Method;
 
 use crate::body_file::BodyFile;
@@ -35,6 +35,8 @@ pub(crate) struct Built<const D: usize> {
     pub(crate) read: Option<(BodyFormat, usize)>,
     /// What was mended, a sentence each.
     pub(crate) repairs: Vec<String>,
+    /// Whether it is what bodies of higher precedence have left of it, perhaps only in and near the box.
+    pub(crate) is_cut: bool,
 }
 
 impl<const D: usize> Built<D> {
@@ -46,6 +48,7 @@ impl<const D: usize> Built<D> {
             mesh: None,
             read: None,
             repairs: Vec::new(),
+            is_cut: false,
         }
     }
 }
@@ -117,7 +120,7 @@ pub(crate) trait Cuttable<const D: usize> {
     /// What was cut before, to be cut again.
     fn again(cut: Self::Cut) -> Self::Operand;
 
-    /// What is left of `lower`.
+    /// What is left of `lower`; of bodies cut on a grid, only what is in the `room`.
     ///
     /// Exact in the plane, and in space where both are meshes or boxes; what is thinner than 10⁻⁶ of the body does not count
     /// there, neither as an overlap nor as a piece, nor what is deeper nowhere than 10⁻⁶ ∆s in space. Other bodies in space are cut on a grid with
@@ -127,6 +130,7 @@ pub(crate) trait Cuttable<const D: usize> {
         lower: &Self::Operand,
         higher: &Self::Operand,
         spacing: f64,
+        room: &Bounds<D>,
     ) -> Result<Left<Self::Cut>, GeometryError>;
 
     /// The body again.

@@ -62,7 +62,7 @@ pub(crate) fn deeper_than<const D: usize>(
     spacing: f64,
 ) -> Option<([f64; D], f64)> {
     let slack = depth_over_spacing * spacing;
-    let common = common(a.bounds(), b.bounds());
+    let common = a.bounds().intersection(b.bounds());
     if (0..D).any(|k| common.max[k] - common.min[k] <= slack) {
         return None;
     }
@@ -75,15 +75,8 @@ pub(crate) fn deeper_than<const D: usize>(
 
 /// Whether the boxes around two bodies have room in common.
 pub(crate) fn may_overlap<const D: usize>(a: &dyn Surface<D>, b: &dyn Surface<D>) -> bool {
-    let common = common(a.bounds(), b.bounds());
+    let common = a.bounds().intersection(b.bounds());
     (0..D).all(|k| common.max[k] > common.min[k])
-}
-
-fn common<const D: usize>(a: Bounds<D>, b: Bounds<D>) -> Bounds<D> {
-    Bounds::new(
-        std::array::from_fn(|k| a.min[k].max(b.min[k])),
-        std::array::from_fn(|k| a.max[k].min(b.max[k])),
-    )
 }
 
 /// Of places on the surface of `a` and just behind it, the deepest in `b`, if that is deeper than `slack`.

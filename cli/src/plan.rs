@@ -10,7 +10,7 @@ use crate::Error;
 use crate::body_file::{BodyFile, ReadBody, of_body};
 use crate::dimension::{Built, Dimension, Space, in_dimension};
 use crate::error::cured;
-use crate::scene::{Fault, Frozen, Role, Scene, Surroundings};
+use crate::scene::{Fault, Frozen, Role, Scene, Shape, Surroundings};
 use crate::spacings;
 use crate::{beyond, methods, overlap, precedence, roles, units};
 
@@ -386,6 +386,9 @@ where
 /// A body so many times larger than the box is a slip: what looks along its surface would never come to an end.
 const GIANT: f64 = 1e5;
 
+/// A circle or an ellipse that is larger, in ∆s, is not right to ∆s/100 any more: what is cut of them is polygons within 10⁻⁷ of their size.
+const COARSE_CURVE: f64 = 1e5;
+
 /// Bodies beside which the box is nothing.
 fn refuse_giants<const D: usize>(scene: &Scene, all: &[Built<D>]) -> Result<(), Error> {
     let (Some(min), Some(max)) = (&scene.domain.min, &scene.domain.max) else {
@@ -393,17 +396,26 @@ fn refuse_giants<const D: usize>(scene: &Scene, all: &[Built<D>]) -> Result<(), 
     };
     let domain = Bounds::new(point::of_slice(min), point::of_slice::<D>(max)).diagonal();
     for (body, built) in scene.body.iter().zip(all) {
-        let times = built.surface.bounds().diagonal() / domain;
-        if times > GIANT {
-            return Err(Error::Scene {
-                path: scene.path.clone(),
-                at: None,
-                message: format!(
-                    "body \"{}\" is {times:.1e} times as large as the domain; correct its size, its scale or the domain",
-                    body.name
-                ),
-            });
-        }
+        let size = built.surface.bounds().diagonal();
+        let (times, spacings) = (size / domain, size / scene.spacing);
+        let is_curve = matches!(body.shape, Shape::Circle { .. } | Shape::Ellipse { .. });
+        let than = match () {
+            () if times > GIANT => format!("is {times:.1e} times as large as the domain"),
+            () if is_curve && spacings > COARSE_CURVE => {
+                format!(
+                    "is {spacings:.1e} spacings large, too much for its curve to be right to a hundredth of a spacing"
+                )
+            }
+            () => continue,
+        };
+        return Err(Error::Scene {
+            path: scene.path.clone(),
+            at: None,
+            message: format!(
+                "body \"{}\" {than}; correct its size, its scale or the domain",
+                body.name
+            ),
+        });
     }
     Ok(())
 }

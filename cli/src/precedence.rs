@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sphpack_geometry::{
     Continued, Cylinder, GeometryError, LevelSet, Mesh, Outline, Surface, cut_on_grid,
 };
-use sphpack_neighbors::{Domain, point};
+use sphpack_neighbors::{Bounds, Domain, point};
 
 use crate::Error;
 use crate::dimension::{Built, Cuttable, Dimension, Left, Space};
@@ -32,8 +32,26 @@ const TOUCHING_ON_GRID: f64 = 1e-2;
 /// Room that a cut on a grid may lose, in ∆s³: a fifth of what a body may be off by.
 const LOST_ON_GRID: f64 = 0.1;
 
+/// What is left and what cut it may be so deep in each other, in ∆s: half of what is refused. Around a rod of R = 0.57 ∆s cells of
+/// ∆s/4 leave 0.12.
+const IN_EACH_OTHER: f64 = 0.5 * overlap::TOUCHING_OVER_SPACING;
+
+/// How often cells are halved for that.
+const HALVINGS: usize = 2;
+
 /// How far the sides of a prism that stands for a cylinder are from it, in ∆s.
 const ROUND_WITHIN: f64 = 1e-4;
+
+/// The largest cylinder that a prism stands for, in ∆s: its 720 sides are then within 10⁻³ ∆s. A level set of what the box holds of a larger
+/// one is nearer.
+const PRISM_RADIUS: f64 = 100.0;
+
+/// How far beyond the sides of the box bodies by formula are looked at, in ∆s.
+const BEYOND: f64 = 2.0;
+
+/// The last part of that, in ∆s, is stretched, to so many times the size of what is looked at.
+const CARRIED: f64 = 0.5;
+const FAR: f64 = 1.5;
 
 impl Cuttable<2> for Space<2> {
     type Cut = Outline;
@@ -60,6 +78,7 @@ impl Cuttable<2> for Space<2> {
         lower: &Outline,
         higher: &Outline,
         spacing: f64,
+        _: &Bounds<2>,
     ) -> Result<Left<Outline>, GeometryError> {
         if lower.intersection(higher).is_none() {
             return Ok(Left::All);
@@ -146,7 +165,12 @@ impl Cuttable<3> for Space<3> {
         Solid::Mesh(Arc::new(cut))
     }
 
-    fn minus(lower: &Solid, higher: &Solid, spacing: f64) -> Result<Left<Mesh>, GeometryError> {
+    fn minus(
+        lower: &Solid,
+        higher: &Solid,
+        spacing: f64,
+        room: &Bounds<3>,
+    ) -> Result<Left<Mesh>, GeometryError> {
         let overlaps = |depth: f64| {
             overlap::deeper_than(depth, lower.surface(), higher.surface(), spacing).is_some()
         };
@@ -162,12 +186,31 @@ impl Cuttable<3> for Space<3> {
                 _ => Left::All,
             });
         }
-        if !overlaps(TOUCHING_ON_GRID) {
+        let [from, by] = [lower, higher].map(|body| body.surface().bounds());
+        if from.intersection(by).intersection(*room).is_empty() || !overlaps(TOUCHING_ON_GRID) {
             return Ok(Left::All);
         }
-        let cell = spacing / CELLS_PER_SPACING;
+        let mut cell = spacing / CELLS_PER_SPACING;
         let lost = LOST_ON_GRID * spacing.powi(3);
-        Ok(cut_on_grid(lower.shared(), higher.shared(), cell, lost)?.into())
+        let window = from.grown(spacing).intersection(*room);
+        let at = |cell: f64| cut_on_grid(lower.shared(), higher.shared(), cell, lost, &window);
+        let mut left = at(cell)?;
+        for _ in 0..HALVINGS {
+            let overlaps = |left: &Mesh| {
+                overlap::deeper_than(IN_EACH_OTHER, left, higher.surface(), spacing).is_some()
+            };
+            if !left.as_ref().is_some_and(overlaps) {
+                break;
+            }
+            cell *= 0.5;
+            match at(cell) {
+                Ok(finer) => left = finer,
+                // Finer cells may be too many.
+                Err(_) => break,
+            }
+        }
+        let left = left.map(|left| carried_on(left, room, spacing));
+        Ok(left.transpose()?.into())
     }
 
     fn rebuilt(cut: Mesh) -> Built<3> {
@@ -182,21 +225,75 @@ impl Cuttable<3> for Space<3> {
     ) -> Result<Option<Continued<3>>, GeometryError> {
         if let (Shape::Cylinder { start, end, radius }, None) = (&body.shape, &built.mesh) {
             let place = Self::place(body)?;
-            let [start, end] = [start, end].map(|p| place.point(point::of_slice(p)));
-            let rod = Cylinder::new(start, end, radius * place.scale())?;
-            return rod.mesh(ROUND_WITHIN * spacing)?.continued(domain);
+            let radius = radius * place.scale();
+            if radius <= PRISM_RADIUS * spacing {
+                let [start, end] = [start, end].map(|p| place.point(point::of_slice(p)));
+                let rod = Cylinder::new(start, end, radius)?;
+                return rod.mesh(ROUND_WITHIN * spacing)?.continued(domain);
+            }
         }
         match Self::operand(body, built)? {
             Solid::Mesh(mesh) => mesh.continued(domain),
             Solid::Smooth(surface) => {
                 let cell = spacing / CELLS_PER_SPACING;
-                match LevelSet::of(surface, cell)?.mesh()? {
-                    Some(mesh) => mesh.continued(domain),
+                let around = surface.bounds().grown(spacing);
+                let room = room(domain, spacing);
+                let window = around.intersection(room);
+                if window.is_empty() {
+                    return Ok(None);
+                }
+                match LevelSet::within(surface, cell, &window)?.mesh()? {
+                    Some(mesh) => carried_on(mesh, &room, spacing)?.continued(domain),
                     None => Ok(None),
                 }
             }
         }
     }
+}
+
+/// Where bodies are looked at: the box and a little more; without end across periodic sides, where they come back.
+fn room<const D: usize>(domain: &Domain<D>, spacing: f64) -> Bounds<D> {
+    let mut room = domain.bounds.grown(BEYOND * spacing);
+    for axis in (0..D).filter(|&axis| domain.periodic[axis]) {
+        room.min[axis] = f64::NEG_INFINITY;
+        room.max[axis] = f64::INFINITY;
+    }
+    room
+}
+
+/// What of a body is in the `room`, with the faces that the room's sides have cut it by moved away by more than the room's size: nothing in the box is near them. What
+/// passes a side less than a particle behind it goes straight on.
+fn carried_on(mesh: Mesh, room: &Bounds<3>, spacing: f64) -> Result<Mesh, GeometryError> {
+    let bounds = mesh.bounds();
+    let kept = room.grown(-CARRIED * spacing);
+    if kept.contains_box(&bounds) {
+        return Ok(mesh);
+    }
+    let sides = room.intersection(bounds);
+    let times = FAR * sides.diagonal() / (CARRIED * spacing);
+    let moved = |p: &[f64; 3]| {
+        std::array::from_fn(|k| {
+            let near = p[k].clamp(kept.min[k], kept.max[k]);
+            near + times * (p[k] - near)
+        })
+    };
+    let vertices = mesh.vertices().iter().map(moved).collect();
+    Mesh::new(vertices, mesh.triangles().to_vec())
+}
+
+/// The [`room`] of a scene that gives its box; all there is where bodies make it.
+fn room_of<const D: usize>(scene: &Scene) -> Bounds<D> {
+    let spec = &scene.domain;
+    let (Some(min), Some(max)) = (&spec.min, &spec.max) else {
+        return Bounds::new([f64::NEG_INFINITY; D], [f64::INFINITY; D]);
+    };
+    let periodic = spec.periodic.as_deref().unwrap_or(&[]);
+    let domain = Domain::new(point::of_slice(min), point::of_slice(max));
+    let is_periodic = |k: usize| periodic.get(k).copied().unwrap_or(false);
+    room(
+        &domain.with_periodic(std::array::from_fn(is_periodic)),
+        scene.spacing,
+    )
 }
 
 /// Cuts from every solid body what overlaps it, solid or void, and has a higher precedence. A body from which nothing is taken
@@ -206,12 +303,13 @@ where
     Space<D>: Dimension<D>,
 {
     let solid = |i: usize| scene.body[i].role == Role::Solid;
+    let room = room_of(scene);
     let mut cuts = Vec::new();
     for i in (0..all.len()).filter(|&i| solid(i)) {
         let mut left = None;
         for j in (0..all.len()).filter(|&j| scene.body[j].role != Role::Container) {
             if scene.body[j].precedence > scene.body[i].precedence {
-                left = cut(scene, all, left, [i, j])?;
+                left = cut(scene, all, left, [i, j], &room)?;
             }
         }
         cuts.extend(left.map(|left| (i, Space::<D>::rebuilt(left))));
@@ -222,6 +320,7 @@ where
         *built = Built {
             read: built.read,
             repairs: std::mem::take(&mut built.repairs),
+            is_cut: true,
             ..left
         };
     }
@@ -236,6 +335,7 @@ fn cut<const D: usize>(
     all: &[Built<D>],
     left: Option<Cut<D>>,
     [lower, higher]: [usize; 2],
+    room: &Bounds<D>,
 ) -> Result<Option<Cut<D>>, Error>
 where
     Space<D>: Dimension<D>,
@@ -260,7 +360,7 @@ where
             Some(left) => Space::<D>::again(left.clone()),
             None => operand(lower)?,
         };
-        Space::<D>::minus(&body, &operand(higher)?, scene.spacing)
+        Space::<D>::minus(&body, &operand(higher)?, scene.spacing, room)
     };
     match done() {
         Ok(Left::All) => Ok(left),

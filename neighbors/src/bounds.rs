@@ -71,6 +71,17 @@ impl<const D: usize> Bounds<D> {
         both
     }
 
+    /// The box that both have in common; [empty](Bounds::is_empty) where they are apart.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Self {
+        let mut both = self;
+        for k in 0..D {
+            both.min[k] = both.min[k].max(other.min[k]);
+            both.max[k] = both.max[k].min(other.max[k]);
+        }
+        both
+    }
+
     /// The box grown by `margin` on every side.
     #[must_use]
     pub fn grown(self, margin: f64) -> Self {

@@ -11,6 +11,11 @@ type Points = Vec<[f64; 2]>;
 
 const SPACING: f64 = 1.0;
 
+/// A room without sides.
+fn open<const D: usize>() -> Bounds<D> {
+    Bounds::new([f64::NEG_INFINITY; D], [f64::INFINITY; D])
+}
+
 /// The part of a convex polygon to the left of every side of another: both counter-clockwise.
 fn clipped(mut points: Points, by: &[[f64; 2]]) -> Points {
     for (k, &a) in by.iter().enumerate() {
@@ -96,7 +101,7 @@ proptest! {
         let bounds = lower.bounds();
         let least = 1e-6 * bounds.diagonal() * lower.measure();
         let exact = area(&a) - both;
-        let left = Space::<2>::minus(&lower, &higher, SPACING).expect("in the plane all is cut");
+        let left = Space::<2>::minus(&lower, &higher, SPACING, &open()).expect("in the plane all is cut");
         let (volume, pieces) = match &left {
             Left::All => (lower.volume(), 1),
             Left::Part(left) => (left.volume(), left.loops().len()),
@@ -134,7 +139,7 @@ fn volumes_add_up_at_any_depth() {
             ] {
                 let higher = solid([4.0 - depth, y, z], [7.0, y + 7.0, z + 7.0], degrees);
                 let both = depth * (4.0 - y.max(0.0)) * (4.0 - z.max(0.0));
-                let left = Space::<3>::minus(&lower, &higher, SPACING).expect("it is cut");
+                let left = Space::<3>::minus(&lower, &higher, SPACING, &open()).expect("it is cut");
                 let volume = match left {
                     Left::All => 64.0,
                     Left::Part(left) => left.volume(),
@@ -154,7 +159,7 @@ fn volumes_add_up_at_any_depth() {
             solid([4.0; 3], [7.0; 3], degrees),
         ] {
             assert!(matches!(
-                Space::<3>::minus(&lower, &higher, SPACING),
+                Space::<3>::minus(&lower, &higher, SPACING, &open()),
                 Ok(Left::All)
             ));
         }
@@ -164,11 +169,11 @@ fn volumes_add_up_at_any_depth() {
         Solid::Smooth(Arc::new(ball) as Arc<dyn Surface<3>>)
     };
     assert!(matches!(
-        Space::<3>::minus(&ball(0.0), &ball(4.0), SPACING),
+        Space::<3>::minus(&ball(0.0), &ball(4.0), SPACING, &open()),
         Ok(Left::All)
     ));
     assert!(matches!(
-        Space::<3>::minus(&ball(0.0), &ball(3.9), SPACING),
+        Space::<3>::minus(&ball(0.0), &ball(3.9), SPACING, &open()),
         Ok(Left::Part(_))
     ));
 }
@@ -186,6 +191,7 @@ fn thin_slices_are_not_lost_on_a_grid() {
             &Solid::Smooth(Arc::new(ring.expect("a ring"))),
             &solid(board[0], board[1], 0.0),
             SPACING,
+            &open(),
         );
         let chord = minor - height;
         let segment =
@@ -199,4 +205,76 @@ fn thin_slices_are_not_lost_on_a_grid() {
         refined += usize::from(left.triangles().len() > 20_000);
     }
     assert!(refined > 0, "cells of a quarter of ∆s were enough");
+}
+
+/// Of a planet only what is in the room is cut, and only the room is paid for; it is cut as a flat board would be.
+#[test]
+fn of_bodies_larger_than_the_room_only_what_is_in_it_is_cut() {
+    let ball = |z: f64, radius: f64| {
+        let ball = Ball::new([0.0, 0.0, z], radius).expect("a ball");
+        Solid::Smooth(Arc::new(ball) as Arc<dyn Surface<3>>)
+    };
+    let room = Bounds::new([-6.0; 3], [6.0; 3]);
+    for radius in [50.0, 1e3, 1e6] {
+        let planet = ball(-radius, radius);
+        let below = |shift: f64| ball(-radius - shift, radius);
+        // Beyond the room all goes on for a while: a box of 10 × 10 × 10 in it counts.
+        let Solid::Mesh(inner) = solid([-5.0; 3], [5.0; 3], 0.0) else {
+            panic!("a box is a mesh");
+        };
+        let volume = |left: Result<Left<Mesh>, GeometryError>| match left {
+            Ok(Left::Part(left)) => {
+                let beyond = left.minus(&inner).expect("it is cut");
+                left.volume() - beyond.map_or(0.0, |beyond| beyond.volume())
+            }
+            Ok(Left::All) => f64::INFINITY,
+            other => panic!("{radius}: {:?}", other.map(|_| ())),
+        };
+        // A layer between two spheres: one is as far below the other everywhere.
+        let sagitta = 100.0 * (25.0 / 3.0) / radius;
+        let layer = volume(Space::<3>::minus(&planet, &below(2.0), SPACING, &room));
+        assert!((layer - 200.0).abs() < 1e-3 * 200.0, "{layer}");
+        let small = volume(Space::<3>::minus(&ball(0.0, 3.0), &planet, SPACING, &room));
+        let half = TAU * 9.0;
+        let cap = TAU * 81.0 / 8.0 / radius;
+        assert!(
+            (small - half - cap).abs() < 3e-3 * half,
+            "{small}, {half}, {cap}"
+        );
+        let ground = volume(Space::<3>::minus(&planet, &ball(0.0, 3.0), SPACING, &room));
+        let exact = 100.0 * 5.0 - sagitta - (half - cap);
+        assert!((ground - exact).abs() < 3e-3 * exact, "{ground}, {exact}");
+        // What meets beyond the room does not matter.
+        let away = Bounds::new([-6.0, -6.0, 4.0], [6.0, 6.0, 9.0]);
+        assert!(matches!(
+            Space::<3>::minus(&planet, &ball(0.0, 3.0), SPACING, &away),
+            Ok(Left::All)
+        ));
+    }
+}
+
+/// What is left of a ball around rods thinner than a particle, at any angle, does not overlap them.
+#[test]
+fn thin_rods_are_cut_out_as_they_are() {
+    for n in 0..12 {
+        let n = f64::from(n);
+        let part = |a: f64| (a * (n + 0.5)) % 1.0;
+        let [x, y, z] = [0.819_172_5, 0.671_043_6, 0.549_700_5].map(part);
+        let along = [x - 0.5, y - 0.5, z - 0.5];
+        let radius = 0.3 + 0.1 * (n % 5.0);
+        let rod = Cylinder::new([x, y, z], point::add_scaled([x, y, z], 3.0, along), radius);
+        let rod: Arc<dyn Surface<3>> = Arc::new(rod.expect("a rod"));
+        let ball: Arc<dyn Surface<3>> = Arc::new(Ball::new([0.0; 3], 5.0).expect("a ball"));
+        let [lower, higher] = [ball, Arc::clone(&rod)].map(Solid::Smooth);
+        let left = Space::<3>::minus(&lower, &higher, SPACING, &open());
+        let Ok(Left::Part(left)) = left else {
+            panic!("{n}: not cut");
+        };
+        let deep =
+            overlap::deeper_than(overlap::TOUCHING_OVER_SPACING, &left, rod.as_ref(), SPACING);
+        assert!(deep.is_none(), "{n}: {deep:?}");
+        let whole = 2.0 / 3.0 * TAU * 125.0;
+        let off = (whole - left.volume() - rod.volume()).abs();
+        assert!(off < LOST_ON_GRID + 1e-3 * whole, "{n}: {off}");
+    }
 }

@@ -82,19 +82,20 @@ impl Net {
         } else {
             (domain.bounds.min[axis], -1.0)
         };
-        // Those beyond it too: a face less than ∆s/2 beyond would have its particles in the box.
+        // Those beyond it too, but for what is farther than the box is large: a face less than ∆s/2 beyond would have its particles in the box.
         let slack = slack(domain);
+        let far = domain.bounds.diagonal();
         let on: Vec<usize> = (0..self.triangles.len())
             .filter(|&t| {
                 let level = self.vertices[self.triangles[t][0] as usize][axis];
-                (level - side) * out >= 0.0
+                (0.0..far).contains(&((level - side) * out))
                     && self.is_on(&self.triangles[t], axis, level, out, slack)
             })
             .collect();
         if on.is_empty() {
             return false;
         }
-        let far = domain.bounds.diagonal() * out;
+        let far = far * out;
         let mut moved: HashMap<u32, u32> = HashMap::new();
         // Sides of the faces with no face on the other side.
         let mut rim: HashMap<(u32, u32), i32> = HashMap::new();

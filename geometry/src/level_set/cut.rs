@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use sphpack_neighbors::Bounds;
+
 use super::LevelSet;
 use crate::{CutError, GeometryError, Mesh, MeshError, Surface};
 
@@ -11,18 +13,24 @@ const HALVINGS: i32 = 3;
 /// What a cut may lose beside what it is told, in parts of the body's volume: cells of ∆s/4 miss a ball of R = 5 ∆s by 0.05 %.
 const LOST: f64 = 1e-3;
 
+/// How far beyond the first body the second one is asked, in cells: twice the band in which a grid's values are distances.
+const BESIDE_CELLS: f64 = 6.0;
+
 /// What is left of `lower` where `higher` takes its room, as a mesh; `None` where nothing is left. Cells of size `cell`
 /// (scene units), halved up to three times while a slice thinner than a cell is lost: what is left and what is taken must
 /// have the body's own [volume](Surface::volume) together, but for `lost` (scene units to the power 3) and a thousandth of it.
+/// Of bodies that pass the `window` only what is in it is looked at and left ([`LevelSet::within`]); the volume is then that of a mesh of what the window holds of `lower`.
 /// Costs two [level sets](LevelSet::of), two Booleans and two meshes for each size of cells.
 ///
 /// ```
 /// use std::sync::Arc;
 /// use sphpack_geometry::{Ball, Cuboid, Surface, cut_on_grid};
+/// use sphpack_neighbors::Bounds;
 /// let ball = Arc::new(Ball::new([0.0; 3], 1.0)?);
 /// // A cap of height 0.04 is above the box.
 /// let board = Arc::new(Cuboid::new([-2.0, -2.0, 0.0], [2.0, 2.0, 0.96])?);
-/// let left = cut_on_grid(ball, board, 0.1, 1e-3)?;
+/// let window = Bounds::new([-3.0; 3], [3.0; 3]);
+/// let left = cut_on_grid(ball, board, 0.1, 1e-3, &window)?;
 /// let exact = std::f64::consts::PI * (2.0 / 3.0 + 0.04 * 0.04 * (1.0 - 0.04 / 3.0));
 /// assert!(left.is_some_and(|left| (left.volume() - exact).abs() < 5e-3));
 /// # Ok::<(), sphpack_geometry::GeometryError>(())
@@ -35,13 +43,17 @@ pub fn cut_on_grid(
     higher: Arc<dyn Surface<3>>,
     cell: f64,
     lost: f64,
+    window: &Bounds<3>,
 ) -> Result<Option<Mesh>, GeometryError> {
-    let whole = lower.volume();
+    let is_whole = window.contains_box(&lower.bounds());
+    // The other body is asked only where the first one is; cells at the sides of what is asked are not used.
+    let beside = (lower.bounds().intersection(*window)).grown(BESIDE_CELLS * cell);
     let mut size = cell;
     let mut missing = 0.0;
     for next in (0..=HALVINGS).map(|n| cell * 0.5_f64.powi(n)) {
-        let set = |body: &Arc<dyn Surface<3>>| LevelSet::of(Arc::clone(body), next);
-        let (from, by) = match (set(&lower), set(&higher)) {
+        let set =
+            |body: &Arc<dyn Surface<3>>, window| LevelSet::within(Arc::clone(body), next, window);
+        let (from, by) = match (set(&lower, window), set(&higher, &beside)) {
             (Ok(from), Ok(by)) => (from, by),
             // Finer cells may be too many.
             (Err(e), _) | (_, Err(e)) if next == cell => return Err(e),
@@ -50,6 +62,11 @@ pub fn cut_on_grid(
         size = next;
         let (left, taken) = (mesh(&from.minus(&by)?)?, mesh(&from.intersection(&by)?)?);
         let volume = |part: &Option<Mesh>| part.as_ref().map_or(0.0, Mesh::volume);
+        let whole = if is_whole {
+            lower.volume()
+        } else {
+            volume(&mesh(&from)?)
+        };
         missing = (whole - volume(&left) - volume(&taken)).abs();
         if missing <= lost + LOST * whole {
             return Ok(left);

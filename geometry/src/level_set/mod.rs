@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use sphpack_neighbors::Bounds;
 
-use crate::{GeometryError, ParameterError, Surface};
+use crate::{Cuboid, GeometryError, ParameterError, Surface};
 use blocks::Blocks;
 use field::{Boolean, Both, Exact};
 
@@ -70,6 +70,42 @@ impl<const D: usize> LevelSet<D> {
             move |p| surface.closest(p).distance.abs()
         };
         let field: Arc<dyn Field<D>> = Arc::new(Exact(surface));
+        let blocks = Blocks::near(Self::sizes(cell)?, &bounds, near, field.as_ref())?;
+        Ok(Self { blocks, field })
+    }
+
+    /// The level set of what `window` and the body of `surface` have in common, as large as that: of a body that passes the
+    /// window only what is near or in it is asked and stored. Within the window, more than four cells from its sides, the values are those of [`LevelSet::of`].
+    ///
+    /// ```
+    /// use std::sync::Arc;
+    /// use sphpack_geometry::{Ball, LevelSet, Surface};
+    /// use sphpack_neighbors::Bounds;
+    /// let planet = Arc::new(Ball::new([0.0, 0.0, -6.4e6], 6.4e6)?);
+    /// let window = Bounds::new([-2.0, -2.0, -1.0], [2.0, 2.0, 2.0]);
+    /// let ground = LevelSet::within(planet, 0.25, &window)?.mesh()?;
+    /// assert!(ground.is_some_and(|ground| (ground.volume() - 16.0).abs() < 1e-3));
+    /// # Ok::<(), sphpack_geometry::GeometryError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`LevelSet::of`], for what is within the window, and [`GeometryError::Parameter`] where the window is flat or endless.
+    pub fn within(
+        surface: Arc<dyn Surface<D>>,
+        cell: f64,
+        window: &Bounds<D>,
+    ) -> Result<Self, GeometryError> {
+        if window.contains_box(&surface.bounds()) {
+            return Self::of(surface, cell);
+        }
+        let bounds = surface.bounds().intersection(*window);
+        let window = Cuboid::new(window.min, window.max)?;
+        let field: Arc<dyn Field<D>> = Arc::new(Both {
+            how: Boolean::Intersection,
+            first: Arc::new(Exact(surface)),
+            second: Arc::new(Exact(Arc::new(window))),
+        });
+        let near = |p| field.at(p).0.abs();
         let blocks = Blocks::near(Self::sizes(cell)?, &bounds, near, field.as_ref())?;
         Ok(Self { blocks, field })
     }

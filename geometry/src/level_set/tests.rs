@@ -321,3 +321,69 @@ proptest! {
         prop_assert!(a.minus(&b).unwrap().intersection(&b).unwrap().is_empty());
     }
 }
+
+#[test]
+fn within_a_window_all_is_as_without_one() {
+    let ring = || Arc::new(Torus::new([0.1, 0.0, 0.05], [0.2, 0.1, 1.0], 1.0, 0.4).unwrap());
+    let window = Bounds::new([-0.3, 0.2, -0.5], [2.0, 0.9, 0.2]);
+    let (whole, part) = (
+        set(ring(), 0.05),
+        LevelSet::within(ring(), 0.05, &window).unwrap(),
+    );
+    assert!(part.bytes() < whole.bytes() / 2);
+    let inner = window.grown(-part.band() - part.cell());
+    let box_of_it = Cuboid::new(window.min, window.max).unwrap();
+    let mut surface = 0;
+    for n in 0..20_000 {
+        let n = f64::from(n) + 0.5;
+        let part_of = [0.819_172_513, 0.671_043_607, 0.549_700_478].map(|a| (a * n) % 1.0);
+        let p = std::array::from_fn(|k| -1.7 + 3.5 * part_of[k]);
+        let value = part.value(p);
+        if inner.contains(p) {
+            assert_eq!(value.to_bits(), whole.value(p).to_bits(), "{p:?}");
+            surface += usize::from(value.abs() < part.band());
+        } else if box_of_it.closest(p).distance > part.cell() {
+            assert!(value > 0.0, "{p:?}");
+        }
+    }
+    assert!(surface > 30, "{surface}");
+    // A whole body in the window is the same, and one beside it is none.
+    let around = Bounds::new([-3.0; 3], [3.0; 3]);
+    assert_eq!(
+        LevelSet::within(ring(), 0.05, &around).unwrap().bytes(),
+        whole.bytes()
+    );
+    let beside = Bounds::new([2.0; 3], [3.0; 3]);
+    assert!(LevelSet::within(ring(), 0.05, &beside).unwrap().is_empty());
+    assert!(
+        LevelSet::within(ring(), 0.05, &beside)
+            .unwrap()
+            .mesh()
+            .unwrap()
+            .is_none()
+    );
+}
+
+/// A planet costs what the window holds of it, and its ground is where the formula says.
+#[test]
+fn a_bodys_size_beyond_the_window_costs_nothing() {
+    let window = Bounds::new([-2.0; 3], [2.0; 3]);
+    let ground =
+        |radius: f64| LevelSet::within(ball([0.0, 0.0, -radius], radius), 0.25, &window).unwrap();
+    let small = ground(30.0);
+    for radius in [1e3, 1e6] {
+        let large = ground(radius);
+        assert!(
+            large.bytes() < 2 * small.bytes(),
+            "{radius}: {}",
+            large.bytes()
+        );
+        let mesh = clean(&large);
+        let exact = 32.0 - 16.0 * (4.0 / 3.0) / radius;
+        assert!(
+            (mesh.volume() - exact).abs() < 1e-3,
+            "{radius}: {}",
+            mesh.volume()
+        );
+    }
+}

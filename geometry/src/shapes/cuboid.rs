@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use sphpack_neighbors::{Bounds, point};
 
+use crate::sample::patches::{Patch, are_needed, over};
+use crate::sample::scattered;
 use crate::surface::{Closest, Feature, Features, Surface};
 use crate::{GeometryError, InsetError, ParameterError};
 
@@ -124,6 +126,38 @@ impl<const D: usize> Surface<D> for Cuboid<D> {
             }
         }
         Features { corners, edges }
+    }
+
+    fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+        let size = self.bounds.size();
+        let thickness = size.iter().copied().fold(f64::INFINITY, f64::min);
+        if !are_needed::<D>(thickness, self.measure(), count) {
+            return scattered(self, count);
+        }
+        let face = |axis: usize, upper: bool| {
+            let others: Vec<usize> = (0..D).filter(|&k| k != axis).collect();
+            let sides: [f64; 2] = std::array::from_fn(|i| others.get(i).map_or(1.0, |&k| size[k]));
+            let area = sides[0] * sides[1];
+            let mut normal = [0.0; D];
+            normal[axis] = if upper { 1.0 } else { -1.0 };
+            let corner = self.corner(usize::from(upper) << axis);
+            Patch {
+                sides,
+                least: 1.0,
+                stretch: Box::new(move |_| area),
+                at: Box::new(move |at| {
+                    let mut p = corner;
+                    for (&k, part) in others.iter().zip(at) {
+                        p[k] += part * size[k];
+                    }
+                    (p, normal)
+                }),
+            }
+        };
+        let faces: Vec<Patch<'_, D>> = (0..D)
+            .flat_map(|axis| [face(axis, false), face(axis, true)])
+            .collect();
+        over(&faces, count)
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<D>>, GeometryError> {

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use sphpack_neighbors::{Bounds, point};
 
 use super::perpendicular;
+use crate::sample::patches::{Patch, are_needed, over};
+use crate::sample::scattered;
 use crate::surface::{Closest, Feature, Features, Surface};
 use crate::{GeometryError, InsetError, Mesh, ParameterError};
 
@@ -181,6 +183,44 @@ impl Surface<3> for Cylinder {
             corners: Vec::new(),
             edges: vec![rim(self.start), rim(self.end())],
         }
+    }
+
+    fn scatter(&self, count: usize) -> Vec<Closest<3>> {
+        if !are_needed::<3>(self.length.min(2.0 * self.radius), self.measure(), count) {
+            return scattered(self, count);
+        }
+        let u = perpendicular(self.axis);
+        let v = point::cross(self.axis, u);
+        let out = move |t: f64| {
+            let (sin, cos) = (TAU * t).sin_cos();
+            point::add_scaled(point::scale(u, cos), sin, v)
+        };
+        let round = TAU * self.radius;
+        let side = Patch {
+            sides: [self.length, round],
+            least: 1.0,
+            stretch: Box::new(|_| self.length * round),
+            at: Box::new(|[s, t]| {
+                let middle = point::add_scaled(self.start, s * self.length, self.axis);
+                (point::add_scaled(middle, self.radius, out(t)), out(t))
+            }),
+        };
+        let cap = |middle: [f64; 3], normal: [f64; 3]| Patch {
+            sides: [self.radius, 0.5 * round],
+            least: 1.0,
+            stretch: Box::new(|_| 0.5 * self.radius * round),
+            at: Box::new(move |[s, t]| {
+                // Rings of equal area.
+                let away = self.radius * s.sqrt();
+                (point::add_scaled(middle, away, out(t)), normal)
+            }),
+        };
+        let ends = [
+            cap(self.start, point::scale(self.axis, -1.0)),
+            cap(self.end(), self.axis),
+        ];
+        let [first, last] = ends;
+        over(&[first, side, last], count)
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {

@@ -1,5 +1,7 @@
 //! Ellipses and ellipsoids.
 
+mod scatter;
+
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -180,6 +182,10 @@ impl<const D: usize> Surface<D> for Ellipsoid<D> {
             corners: Vec::new(),
             edges: Vec::new(),
         }
+    }
+
+    fn scatter(&self, count: usize) -> Vec<Closest<D>> {
+        self.scattered(count)
     }
 
     /// The level set φ = −`depth`. Its length or area and its content follow Steiner's formulas, exact while the

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use sphpack_neighbors::point;
 
 use super::*;
-use crate::surface::{Feature, Surface};
+use crate::surface::{Closest, Feature, Surface};
 use crate::{GeometryError, InsetError, ParameterError, Placed, Similarity};
 
 /// What every surface must do at `p`.
@@ -189,5 +189,170 @@ fn bad_parameters() {
             vanished,
             Err(GeometryError::Inset(InsetError::Vanished { .. }))
         ));
+    }
+}
+
+/// Points of an ellipsoid are on it, look along its normals, and each stands for the same area: that of a piece is integrated over the
+/// plane it is seen on, by midpoints.
+#[test]
+fn points_scattered_over_an_ellipsoid_stand_for_equal_areas() {
+    let fits = |e: [f64; 3], count: usize| {
+        let body = Ellipsoid::new([0.3, -0.2, 0.1], e).unwrap();
+        let sites = body.scatter(count);
+        assert_eq!(sites.len(), count);
+        for site in sites.iter().step_by(7) {
+            let hit = body.closest(site.point);
+            let size = e.iter().copied().fold(0.0, f64::max);
+            assert!(hit.distance.abs() < 1e-12 * size, "{e:?}: {hit:?}");
+            assert!(
+                point::dot(site.normal, hit.normal) > 1.0 - 1e-6,
+                "{e:?}: {site:?}, {hit:?}"
+            );
+        }
+        // The part of all with x above a quarter of the first axis, and with z above the middle.
+        let part = |is_in: &dyn Fn([f64; 3]) -> bool| {
+            sites.iter().filter(|site| is_in(site.point)).count() as f64 / count as f64
+        };
+        // Of a body of revolution about x (e₁ = e₂): the area beyond x is an integral over x alone.
+        let (a, b) = (e[0], e[1]);
+        let area = |from: f64| {
+            let n = 20_000;
+            (0..n)
+                .map(|i| {
+                    let t = from + (1.0 - from) * (f64::from(i) + 0.5) / f64::from(n);
+                    (b * b * t * t + a * a * (1.0 - t * t)).sqrt() * (1.0 - from)
+                })
+                .sum::<f64>()
+        };
+        for from in [-0.5, 0.25, 0.9] {
+            let found = part(&|p| p[0] > 0.3 + from * a);
+            let exact = area(from) / area(-1.0);
+            let off = (found - exact).abs();
+            assert!(
+                off < 0.01 + 3.0 / count as f64,
+                "{e:?} {from}: {found}, {exact}"
+            );
+        }
+        let half = part(&|p| p[2] > 0.1);
+        assert!(
+            (half - 0.5).abs() < 0.02 + 3.0 / count as f64,
+            "{e:?}: {half}"
+        );
+    };
+    for count in [200, 5000] {
+        for e in [
+            [1.0, 1.0, 1.0],
+            [3.0, 0.5, 0.5],
+            [0.2, 1.5, 1.5],
+            [1e-3, 70.0, 70.0],
+            [1e6, 0.9, 0.9],
+        ] {
+            fits(e, count);
+        }
+    }
+    let ellipse = Ellipsoid::new([0.0; 2], [3.0, 0.01]).unwrap();
+    let sites = ellipse.scatter(1000);
+    assert!(
+        sites
+            .iter()
+            .all(|site| ellipse.closest(site.point).distance.abs() < 1e-12)
+    );
+    let outer = sites
+        .iter()
+        .filter(|site| site.point[0].abs() > 1.5)
+        .count();
+    assert!((495..=505).contains(&outer), "{outer}");
+}
+
+/// Of flat and slender boxes, rods and rings every part has the points that its area asks for, on the surface and with its normals.
+#[test]
+fn points_scattered_over_shapes_stand_for_equal_areas() {
+    type Part = (&'static str, fn(&Closest<3>) -> bool, f64);
+    let fits = |body: &dyn Surface<3>, parts: &[Part]| {
+        for count in [200, 5000] {
+            let sites = body.scatter(count);
+            assert_eq!(sites.len(), count);
+            let size = body.bounds().diagonal();
+            for site in sites.iter().step_by(7) {
+                let hit = body.closest(site.point);
+                assert!(
+                    hit.distance.abs() < 1e-12 * size,
+                    "{body:?}: {site:?}, {hit:?}"
+                );
+                // At an edge the nearest point has a normal between those of its sides.
+                let facing = point::dot(site.normal, hit.normal);
+                assert!(
+                    facing > 1.0 - 1e-6 || hit.feature != Feature::Smooth,
+                    "{body:?}: {site:?}"
+                );
+            }
+            for &(name, is_in, area) in parts {
+                let found = sites.iter().filter(|site| is_in(site)).count() as f64 / count as f64;
+                let off = (found - area / body.measure()).abs();
+                assert!(
+                    off < 0.01 + 3.0 / count as f64,
+                    "{name} of {body:?}: {found}"
+                );
+            }
+        }
+    };
+    let on = |min, max| Cuboid::<3>::new(min, max).unwrap();
+    let plate = on([0.0; 3], [100.0, 80.0, 0.01]);
+    fits(
+        &plate,
+        &[
+            ("top", |s| s.normal[2] == 1.0, 8000.0),
+            ("left half", |s| s.point[0] < 50.0, 8001.8),
+        ],
+    );
+    let rod = on([0.0; 3], [1.0, 2.0, 1e6]);
+    fits(
+        &rod,
+        &[
+            ("side", |s| s.normal[0] == -1.0, 2e6),
+            ("front", |s| s.normal[1] == 1.0, 1e6),
+            ("upper tenth", |s| s.point[2] > 9e5, 6e5),
+        ],
+    );
+    let disk = Cylinder::new([0.0; 3], [0.0, 0.0, 0.02], 50.0).unwrap();
+    fits(
+        &disk,
+        &[
+            ("top", |s| s.normal[2] > 0.5, PI * 2500.0),
+            (
+                "middle",
+                |s| s.point[0].hypot(s.point[1]) < 25.0,
+                PI * 1250.0,
+            ),
+        ],
+    );
+    let wire = Cylinder::new([0.0; 3], [0.0, 0.0, 1e5], 0.5).unwrap();
+    fits(
+        &wire,
+        &[
+            ("upper tenth", |s| s.point[2] > 9e4, PI * 1e4),
+            ("right half", |s| s.point[0] > 0.0, 0.5 * PI * 1e5),
+        ],
+    );
+    for (major, minor) in [(3e4, 1.0), (1.0, 1e-9)] {
+        let ring = Torus::new([0.0; 3], [0.0, 0.0, 1.0], major, minor).unwrap();
+        let outer = PI * minor * (2.0 * PI * major + 4.0 * minor);
+        let eighth = ring.measure() / 8.0;
+        fits(
+            &ring,
+            &[
+                (
+                    "outer side",
+                    |s| s.point[0] * s.normal[0] + s.point[1] * s.normal[1] > 0.0,
+                    outer,
+                ),
+                ("upper side", |s| s.normal[2] > 0.0, 4.0 * eighth),
+                (
+                    "an eighth",
+                    |s| s.point[0] > s.point[1] && s.point[1] > 0.0,
+                    eighth,
+                ),
+            ],
+        );
     }
 }

@@ -1,13 +1,18 @@
 //! Rings.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use sphpack_neighbors::{Bounds, point};
 
 use super::perpendicular;
+use crate::sample::patches::{Patch, are_needed, over};
+use crate::sample::scattered;
 use crate::surface::{Closest, Feature, Features, Surface};
 use crate::{GeometryError, InsetError, ParameterError};
+
+/// Pieces around the tube at least where points are scattered: its outer side has more area than its inner one.
+const LEAST_AROUND: f64 = 16.0;
 
 /// A torus. Every query is O(1).
 ///
@@ -105,6 +110,29 @@ impl Surface<3> for Torus {
 
     fn features(&self) -> Features<3> {
         Features::default()
+    }
+
+    fn scatter(&self, count: usize) -> Vec<Closest<3>> {
+        if !are_needed::<3>(2.0 * self.minor, self.measure(), count) {
+            return scattered(self, count);
+        }
+        let u = perpendicular(self.axis);
+        let v = point::cross(self.axis, u);
+        let (around, tube) = (TAU * self.major, TAU * self.minor);
+        let patch = Patch {
+            sides: [around, tube],
+            least: LEAST_AROUND,
+            stretch: Box::new(|[_, t]| tube * (around + tube * (TAU * t).cos())),
+            at: Box::new(|[s, t]| {
+                let (sin, cos) = (TAU * s).sin_cos();
+                let out = point::add_scaled(point::scale(u, cos), sin, v);
+                let (sin, cos) = (TAU * t).sin_cos();
+                let normal = point::add_scaled(point::scale(out, cos), sin, self.axis);
+                let middle = point::add_scaled(self.center, self.major, out);
+                (point::add_scaled(middle, self.minor, normal), normal)
+            }),
+        };
+        over(&[patch], count)
     }
 
     fn inset(&self, depth: f64) -> Result<Arc<dyn Surface<3>>, GeometryError> {
