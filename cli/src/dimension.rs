@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use sphpack_geometry::{BodyFormat, Continued, GeometryError, Mesh, Outline, Similarity, Surface};
-use sphpack_neighbors::{Bounds, Domain};
+use sphpack_neighbors::Domain;
 use sphpack_packing::Method;
 
 use crate::body_file::BodyFile;
+use crate::room::Room;
 use crate::scene::{BodySpec, Scene, Shape};
 
 /// Work whose dimension, 2 or 3, is known only when it runs: the one place where the two ways part.
@@ -130,7 +131,7 @@ pub(crate) trait Cuttable<const D: usize> {
         lower: &Self::Operand,
         higher: &Self::Operand,
         spacing: f64,
-        room: &Bounds<D>,
+        room: &Room<D>,
     ) -> Result<Left<Self::Cut>, GeometryError>;
 
     /// The body again.

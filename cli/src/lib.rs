@@ -95,6 +95,7 @@ mod precedence;
 pub mod prelude;
 mod report;
 mod roles;
+mod room;
 mod run;
 pub mod scene;
 mod shapes;

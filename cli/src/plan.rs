@@ -386,7 +386,7 @@ where
 /// A body so many times larger than the box is a slip: what looks along its surface would never come to an end.
 const GIANT: f64 = 1e5;
 
-/// A circle or an ellipse that is larger, in ∆s, is not right to ∆s/100 any more: what is cut of them is polygons within 10⁻⁷ of their size.
+/// A circle or an ellipse that is larger than this, in ∆s, and than the box is not right to ∆s/100 any more: what is cut of them is polygons within 10⁻⁷ of their size.
 const COARSE_CURVE: f64 = 1e5;
 
 /// Bodies beside which the box is nothing.
@@ -401,7 +401,7 @@ fn refuse_giants<const D: usize>(scene: &Scene, all: &[Built<D>]) -> Result<(), 
         let is_curve = matches!(body.shape, Shape::Circle { .. } | Shape::Ellipse { .. });
         let than = match () {
             () if times > GIANT => format!("is {times:.1e} times as large as the domain"),
-            () if is_curve && spacings > COARSE_CURVE => {
+            () if is_curve && times > 1.0 && spacings > COARSE_CURVE => {
                 format!(
                     "is {spacings:.1e} spacings large, too much for its curve to be right to a hundredth of a spacing"
                 )

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use sphpack_geometry::{
     Continued, Cylinder, GeometryError, LevelSet, Mesh, Outline, Surface, cut_on_grid,
 };
-use sphpack_neighbors::{Bounds, Domain, point};
+use sphpack_neighbors::{Domain, point};
 
 use crate::Error;
 use crate::dimension::{Built, Cuttable, Dimension, Left, Space};
 use crate::error::cured;
 use crate::overlap;
+use crate::room::Room;
 use crate::scene::{BodySpec, Role, Scene, Shape};
 
 /// Cells per ∆s of the grid on which bodies are cut that are not meshes.
@@ -46,19 +47,14 @@ const ROUND_WITHIN: f64 = 1e-4;
 /// one is nearer.
 const PRISM_RADIUS: f64 = 100.0;
 
-/// How far beyond the sides of the box bodies by formula are looked at, in ∆s.
-const BEYOND: f64 = 2.0;
-
-/// The last part of that, in ∆s, is stretched, to so many times the size of what is looked at.
-const CARRIED: f64 = 0.5;
-const FAR: f64 = 1.5;
-
 impl Cuttable<2> for Space<2> {
     type Cut = Outline;
     type Operand = Outline;
 
     fn operand(body: &BodySpec, built: &Built<2>) -> Result<Outline, GeometryError> {
         let ellipse = match &body.shape {
+            // What others have left of it.
+            _ if built.is_cut => return Outline::new(built.loops.clone()),
             Shape::Circle { center, radius } => (point::of_slice(center), [*radius; 2]),
             Shape::Ellipse { center, semi_axes } => {
                 (point::of_slice(center), point::of_slice(semi_axes))
@@ -78,7 +74,7 @@ impl Cuttable<2> for Space<2> {
         lower: &Outline,
         higher: &Outline,
         spacing: f64,
-        _: &Bounds<2>,
+        _: &Room<2>,
     ) -> Result<Left<Outline>, GeometryError> {
         if lower.intersection(higher).is_none() {
             return Ok(Left::All);
@@ -169,7 +165,7 @@ impl Cuttable<3> for Space<3> {
         lower: &Solid,
         higher: &Solid,
         spacing: f64,
-        room: &Bounds<3>,
+        room: &Room<3>,
     ) -> Result<Left<Mesh>, GeometryError> {
         let overlaps = |depth: f64| {
             overlap::deeper_than(depth, lower.surface(), higher.surface(), spacing).is_some()
@@ -187,12 +183,13 @@ impl Cuttable<3> for Space<3> {
             });
         }
         let [from, by] = [lower, higher].map(|body| body.surface().bounds());
-        if from.intersection(by).intersection(*room).is_empty() || !overlaps(TOUCHING_ON_GRID) {
+        if from.intersection(by).intersection(room.bounds).is_empty() || !overlaps(TOUCHING_ON_GRID)
+        {
             return Ok(Left::All);
         }
         let mut cell = spacing / CELLS_PER_SPACING;
         let lost = LOST_ON_GRID * spacing.powi(3);
-        let window = from.grown(spacing).intersection(*room);
+        let window = from.grown(spacing).intersection(room.bounds);
         let at = |cell: f64| cut_on_grid(lower.shared(), higher.shared(), cell, lost, &window);
         let mut left = at(cell)?;
         for _ in 0..HALVINGS {
@@ -209,7 +206,7 @@ impl Cuttable<3> for Space<3> {
                 Err(_) => break,
             }
         }
-        let left = left.map(|left| carried_on(left, room, spacing));
+        let left = left.map(|left| room.carry_on(left));
         Ok(left.transpose()?.into())
     }
 
@@ -237,63 +234,18 @@ impl Cuttable<3> for Space<3> {
             Solid::Smooth(surface) => {
                 let cell = spacing / CELLS_PER_SPACING;
                 let around = surface.bounds().grown(spacing);
-                let room = room(domain, spacing);
-                let window = around.intersection(room);
+                let room = Room::around(domain, spacing);
+                let window = around.intersection(room.bounds);
                 if window.is_empty() {
                     return Ok(None);
                 }
                 match LevelSet::within(surface, cell, &window)?.mesh()? {
-                    Some(mesh) => carried_on(mesh, &room, spacing)?.continued(domain),
+                    Some(mesh) => room.carry_on(mesh)?.continued(domain),
                     None => Ok(None),
                 }
             }
         }
     }
-}
-
-/// Where bodies are looked at: the box and a little more; without end across periodic sides, where they come back.
-fn room<const D: usize>(domain: &Domain<D>, spacing: f64) -> Bounds<D> {
-    let mut room = domain.bounds.grown(BEYOND * spacing);
-    for axis in (0..D).filter(|&axis| domain.periodic[axis]) {
-        room.min[axis] = f64::NEG_INFINITY;
-        room.max[axis] = f64::INFINITY;
-    }
-    room
-}
-
-/// What of a body is in the `room`, with the faces that the room's sides have cut it by moved away by more than the room's size: nothing in the box is near them. What
-/// passes a side less than a particle behind it goes straight on.
-fn carried_on(mesh: Mesh, room: &Bounds<3>, spacing: f64) -> Result<Mesh, GeometryError> {
-    let bounds = mesh.bounds();
-    let kept = room.grown(-CARRIED * spacing);
-    if kept.contains_box(&bounds) {
-        return Ok(mesh);
-    }
-    let sides = room.intersection(bounds);
-    let times = FAR * sides.diagonal() / (CARRIED * spacing);
-    let moved = |p: &[f64; 3]| {
-        std::array::from_fn(|k| {
-            let near = p[k].clamp(kept.min[k], kept.max[k]);
-            near + times * (p[k] - near)
-        })
-    };
-    let vertices = mesh.vertices().iter().map(moved).collect();
-    Mesh::new(vertices, mesh.triangles().to_vec())
-}
-
-/// The [`room`] of a scene that gives its box; all there is where bodies make it.
-fn room_of<const D: usize>(scene: &Scene) -> Bounds<D> {
-    let spec = &scene.domain;
-    let (Some(min), Some(max)) = (&spec.min, &spec.max) else {
-        return Bounds::new([f64::NEG_INFINITY; D], [f64::INFINITY; D]);
-    };
-    let periodic = spec.periodic.as_deref().unwrap_or(&[]);
-    let domain = Domain::new(point::of_slice(min), point::of_slice(max));
-    let is_periodic = |k: usize| periodic.get(k).copied().unwrap_or(false);
-    room(
-        &domain.with_periodic(std::array::from_fn(is_periodic)),
-        scene.spacing,
-    )
 }
 
 /// Cuts from every solid body what overlaps it, solid or void, and has a higher precedence. A body from which nothing is taken
@@ -303,7 +255,7 @@ where
     Space<D>: Dimension<D>,
 {
     let solid = |i: usize| scene.body[i].role == Role::Solid;
-    let room = room_of(scene);
+    let room = Room::of(scene);
     let mut cuts = Vec::new();
     for i in (0..all.len()).filter(|&i| solid(i)) {
         let mut left = None;
@@ -335,7 +287,7 @@ fn cut<const D: usize>(
     all: &[Built<D>],
     left: Option<Cut<D>>,
     [lower, higher]: [usize; 2],
-    room: &Bounds<D>,
+    room: &Room<D>,
 ) -> Result<Option<Cut<D>>, Error>
 where
     Space<D>: Dimension<D>,

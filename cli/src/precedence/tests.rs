@@ -11,11 +11,6 @@ type Points = Vec<[f64; 2]>;
 
 const SPACING: f64 = 1.0;
 
-/// A room without sides.
-fn open<const D: usize>() -> Bounds<D> {
-    Bounds::new([f64::NEG_INFINITY; D], [f64::INFINITY; D])
-}
-
 /// The part of a convex polygon to the left of every side of another: both counter-clockwise.
 fn clipped(mut points: Points, by: &[[f64; 2]]) -> Points {
     for (k, &a) in by.iter().enumerate() {
@@ -101,7 +96,7 @@ proptest! {
         let bounds = lower.bounds();
         let least = 1e-6 * bounds.diagonal() * lower.measure();
         let exact = area(&a) - both;
-        let left = Space::<2>::minus(&lower, &higher, SPACING, &open()).expect("in the plane all is cut");
+        let left = Space::<2>::minus(&lower, &higher, SPACING, &Room::open(SPACING)).expect("in the plane all is cut");
         let (volume, pieces) = match &left {
             Left::All => (lower.volume(), 1),
             Left::Part(left) => (left.volume(), left.loops().len()),
@@ -139,7 +134,8 @@ fn volumes_add_up_at_any_depth() {
             ] {
                 let higher = solid([4.0 - depth, y, z], [7.0, y + 7.0, z + 7.0], degrees);
                 let both = depth * (4.0 - y.max(0.0)) * (4.0 - z.max(0.0));
-                let left = Space::<3>::minus(&lower, &higher, SPACING, &open()).expect("it is cut");
+                let left = Space::<3>::minus(&lower, &higher, SPACING, &Room::open(SPACING))
+                    .expect("it is cut");
                 let volume = match left {
                     Left::All => 64.0,
                     Left::Part(left) => left.volume(),
@@ -159,7 +155,7 @@ fn volumes_add_up_at_any_depth() {
             solid([4.0; 3], [7.0; 3], degrees),
         ] {
             assert!(matches!(
-                Space::<3>::minus(&lower, &higher, SPACING, &open()),
+                Space::<3>::minus(&lower, &higher, SPACING, &Room::open(SPACING)),
                 Ok(Left::All)
             ));
         }
@@ -169,11 +165,11 @@ fn volumes_add_up_at_any_depth() {
         Solid::Smooth(Arc::new(ball) as Arc<dyn Surface<3>>)
     };
     assert!(matches!(
-        Space::<3>::minus(&ball(0.0), &ball(4.0), SPACING, &open()),
+        Space::<3>::minus(&ball(0.0), &ball(4.0), SPACING, &Room::open(SPACING)),
         Ok(Left::All)
     ));
     assert!(matches!(
-        Space::<3>::minus(&ball(0.0), &ball(3.9), SPACING, &open()),
+        Space::<3>::minus(&ball(0.0), &ball(3.9), SPACING, &Room::open(SPACING)),
         Ok(Left::Part(_))
     ));
 }
@@ -191,7 +187,7 @@ fn thin_slices_are_not_lost_on_a_grid() {
             &Solid::Smooth(Arc::new(ring.expect("a ring"))),
             &solid(board[0], board[1], 0.0),
             SPACING,
-            &open(),
+            &Room::open(SPACING),
         );
         let chord = minor - height;
         let segment =
@@ -214,7 +210,7 @@ fn of_bodies_larger_than_the_room_only_what_is_in_it_is_cut() {
         let ball = Ball::new([0.0, 0.0, z], radius).expect("a ball");
         Solid::Smooth(Arc::new(ball) as Arc<dyn Surface<3>>)
     };
-    let room = Bounds::new([-6.0; 3], [6.0; 3]);
+    let room = Room::around(&Domain::new([-4.0; 3], [4.0; 3]), SPACING);
     for radius in [50.0, 1e3, 1e6] {
         let planet = ball(-radius, radius);
         let below = |shift: f64| ball(-radius - shift, radius);
@@ -245,7 +241,8 @@ fn of_bodies_larger_than_the_room_only_what_is_in_it_is_cut() {
         let exact = 100.0 * 5.0 - sagitta - (half - cap);
         assert!((ground - exact).abs() < 3e-3 * exact, "{ground}, {exact}");
         // What meets beyond the room does not matter.
-        let away = Bounds::new([-6.0, -6.0, 4.0], [6.0, 6.0, 9.0]);
+        let away = Domain::new([-4.0, -4.0, 6.0], [4.0, 4.0, 7.0]);
+        let away = Room::around(&away, SPACING);
         assert!(matches!(
             Space::<3>::minus(&planet, &ball(0.0, 3.0), SPACING, &away),
             Ok(Left::All)
@@ -266,7 +263,7 @@ fn thin_rods_are_cut_out_as_they_are() {
         let rod: Arc<dyn Surface<3>> = Arc::new(rod.expect("a rod"));
         let ball: Arc<dyn Surface<3>> = Arc::new(Ball::new([0.0; 3], 5.0).expect("a ball"));
         let [lower, higher] = [ball, Arc::clone(&rod)].map(Solid::Smooth);
-        let left = Space::<3>::minus(&lower, &higher, SPACING, &open());
+        let left = Space::<3>::minus(&lower, &higher, SPACING, &Room::open(SPACING));
         let Ok(Left::Part(left)) = left else {
             panic!("{n}: not cut");
         };
@@ -276,5 +273,49 @@ fn thin_rods_are_cut_out_as_they_are() {
         let whole = 2.0 / 3.0 * TAU * 125.0;
         let off = (whole - left.volume() - rod.volume()).abs();
         assert!(off < LOST_ON_GRID + 1e-3 * whole, "{n}: {off}");
+    }
+}
+
+/// What others have left of a curve that passes a side of the box is what goes on there: the whole curve did, over those that had cut it.
+#[test]
+fn cuts_last_beyond_the_sides() {
+    for (shape, radii) in [
+        (
+            "circle = { center = [-30.0, 4.0], radius = 34.0 }",
+            [34.0, 34.0],
+        ),
+        (
+            "ellipse = { center = [-30.0, 4.0], semi_axes = [34.0, 40.0] }",
+            [34.0, 40.0],
+        ),
+    ] {
+        let text = format!(
+            "spacing = 0.5\n[domain]\nmin = [0.0, 0.0]\nmax = [9.0, 8.0]\n\
+             [[body]]\nname = \"wall\"\nshape = {{ {shape} }}\n\
+             [[body]]\nname = \"disc\"\nprecedence = 1\nshape = {{ circle = {{ center = [4.0, 4.0], radius = 2.0 }} }}\n"
+        );
+        let scene = Scene::parse(&text, "wall.toml").expect("a scene");
+        let outcome = crate::run(
+            &scene,
+            &crate::Options::default(),
+            &mut sphpack_packing::Silent,
+        );
+        let report = outcome.expect("it is packed").report;
+        assert!(report.audit.passed, "{:?}", report.audit.messages);
+        // Of the box what the curve holds and the disc does not, in strips.
+        let steps = 100_000;
+        let exact: f64 = (0..steps)
+            .map(|n| {
+                let y = 8.0 * (f64::from(n) + 0.5) / f64::from(steps);
+                let across = (1.0 - ((y - 4.0) / radii[1]).powi(2)).sqrt();
+                let end = -30.0 + radii[0] * across;
+                let half = (4.0 - (y - 4.0) * (y - 4.0)).max(0.0).sqrt();
+                let disc = (end.min(4.0 + half) - (4.0 - half)).max(0.0);
+                (end - disc) * 8.0 / f64::from(steps)
+            })
+            .sum();
+        let wall = report.bodies.iter().find(|body| body.name == "wall");
+        let volume = wall.map_or(0.0, |body| body.volume);
+        assert!((volume - exact).abs() < 1e-3, "{volume}, {exact}");
     }
 }

@@ -202,7 +202,7 @@ impl Net {
 
 impl Whole<3> for Mesh {
     fn contents(&self, domain: &Domain<3>) -> (f64, f64) {
-        contents::of(self, domain).moved_in(0.0)
+        contents::of(self, domain).as_it_is()
     }
 
     fn moved_in(&self, depth: f64) -> Result<Arc<dyn Whole<3>>, GeometryError> {

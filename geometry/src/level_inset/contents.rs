@@ -85,16 +85,52 @@ pub(super) fn integrate<const D: usize>(surface: &dyn Surface<D>, depth: f64) ->
     let center = bounds.center().map(|x| x + 0.003_7 * largest);
     let half = 0.5 * largest;
     let root = Bounds::new(center, center).grown(half);
+    let leaf = |cell: &Bounds<D>, normal: [f64; D], f: f64| {
+        let h = cell.size()[0];
+        let (area, part) = cut(normal, f / h);
+        (area * h.powi(D as i32 - 1), part * h.powi(D as i32))
+    };
     let mut total = (0.0, 0.0);
-    add_box(surface, depth, root, levels, &mut total);
+    add_box(surface, depth, (root, levels), &leaf, &mut total);
     total
 }
+
+/// Measure and volume of the part of {φ ≤ −depth} within a `window`, which is cut into boxes of half the depth at most where the level set
+/// may pass, but never more than 1/512 of its size.
+pub(crate) fn integrate_within<const D: usize>(
+    surface: &dyn Surface<D>,
+    depth: f64,
+    window: &Bounds<D>,
+) -> (f64, f64) {
+    let largest = window.size().iter().copied().fold(0.0, f64::max);
+    let levels = (2.0 * largest / depth).log2().ceil().clamp(5.0, 9.0);
+    let leaf = |cell: &Bounds<D>, normal: [f64; D], f: f64| {
+        // As seen in the unit cube, which the box is stretched from.
+        let size = cell.size();
+        let stretched: [f64; D] = std::array::from_fn(|k| normal[k] * size[k]);
+        let length = point::norm(stretched);
+        let (area, part) = cut(point::scale(stretched, 1.0 / length), f / length);
+        (area * cell.volume() / length, part * cell.volume())
+    };
+    let mut total = (0.0, 0.0);
+    add_box(
+        surface,
+        depth,
+        (*window, levels as usize),
+        &leaf,
+        &mut total,
+    );
+    total
+}
+
+/// Measure and volume of a plane through a box: the normal, and how far the middle of the box is from it.
+type Leaf<'a, const D: usize> = &'a dyn Fn(&Bounds<D>, [f64; D], f64) -> (f64, f64);
 
 fn add_box<const D: usize>(
     surface: &dyn Surface<D>,
     depth: f64,
-    cell: Bounds<D>,
-    levels: usize,
+    (cell, levels): (Bounds<D>, usize),
+    leaf: Leaf<'_, D>,
     total: &mut (f64, f64),
 ) {
     let center = cell.center();
@@ -107,10 +143,9 @@ fn add_box<const D: usize>(
         return;
     }
     if levels == 0 {
-        let h = cell.size()[0];
-        let (area, part) = cut(gradient(center, &hit), f / h);
-        total.0 += area * h.powi(D as i32 - 1);
-        total.1 += part * h.powi(D as i32);
+        let (area, volume) = leaf(&cell, gradient(center, &hit), f);
+        total.0 += area;
+        total.1 += volume;
         return;
     }
     for bits in 0..1_usize << D {
@@ -122,7 +157,7 @@ fn add_box<const D: usize>(
                 part.max[k] = center[k];
             }
         }
-        add_box(surface, depth, part, levels - 1, total);
+        add_box(surface, depth, (part, levels - 1), leaf, total);
     }
 }
 

@@ -104,6 +104,11 @@ pub(crate) fn width(mesh: &Mesh, t: usize, k: usize) -> f64 {
     }
 }
 
+/// Whether the faces at side `k` of a triangle lie nearly on each other.
+pub(crate) fn is_fold(mesh: &Mesh, t: usize, k: usize) -> bool {
+    mesh.normals.turn[t][k].abs() > FOLD
+}
+
 /// c of [`inset`] for a vertex with flat faces; `None` where it is not that simple.
 fn corner_term(mesh: &Mesh, across: &[[(u32, u8); 3]], (t, k): (usize, usize)) -> Option<f64> {
     // Around the vertex over the sides that leave it: angle of each triangle, and what lies beyond its side.

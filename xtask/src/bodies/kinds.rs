@@ -8,7 +8,7 @@ use sphpack_packing::Silent;
 
 use super::drawn::Drawn;
 use super::row::{CLOSEST, LINF, Row};
-use super::{boxes, contacts, thin, turned};
+use super::{boxes, contacts, giants, thin, turned};
 
 /// Bodies of one kind.
 #[derive(Clone, Copy)]
@@ -22,7 +22,7 @@ pub(super) struct DrawnKind {
 }
 
 /// All of them.
-pub(super) const KINDS: [DrawnKind; 5] = [
+pub(super) const KINDS: [DrawnKind; 6] = [
     DrawnKind {
         name: "walls",
         count: 200,
@@ -52,6 +52,12 @@ pub(super) const KINDS: [DrawnKind; 5] = [
         count: 60,
         quick: 2,
         draw: turned::draw,
+    },
+    DrawnKind {
+        name: "giants",
+        count: 200,
+        quick: 10,
+        draw: giants::draw,
     },
 ];
 

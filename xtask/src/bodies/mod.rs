@@ -4,6 +4,7 @@ mod boxes;
 mod contacts;
 mod drawn;
 mod frame;
+mod giants;
 mod kinds;
 mod plane;
 mod row;
@@ -252,7 +253,8 @@ are by counting cells of the box, images are counted. *Thin* are strips and plat
 then no gap along the middle of a strip is wider than 1.2 ∆s, no hole of a plate wider than that times √2, a fifth more than in a layer of
 squares. *Contacts* are blocks of one
 file that share a side, a part of one, an edge or a point, or are flush at their ends; no surface particle is on an inner wall. *Turned parts* are
-pipes with flanges or fins, cones, needles, sharp rings and cups, at 1/25 to 1/50 of the diagonal.
+pipes with flanges or fins, cones, needles, sharp rings and cups, at 1/25 to 1/50 of the diagonal. *Giants* are 10 to 10⁵ ∆s large in a box of 7 to 12 ∆s, two in five with a
+ball that cuts them or is cut by them.
 
 What is wrong among the thin are watertight plates with a hole a little larger than that, at a rim, or where a plate is just one
 spacing thick and a particle is missing from its layer.

@@ -9,7 +9,7 @@ use super::super::window::holds;
 use super::super::{Continued, Whole};
 use super::contents;
 use crate::GeometryError;
-use crate::level_inset::LevelInset;
+use crate::level_inset::{LevelInset, integrate_within};
 use crate::mesh::{Mesh, vanished};
 use crate::sample::{Candidates, QUICK, THOROUGH, spread};
 use crate::surface::{Closest, Features, Surface};
@@ -87,7 +87,8 @@ impl Whole<3> for Moved {
             let all = contents::of(&self.mesh, domain);
             let is_within = |p| holds(p, domain, 0.0);
             vanished::contents_of(&self.mesh, self.depth, &is_within, all.volume)
-                .unwrap_or_else(|| all.moved_in(self.depth))
+                .or_else(|| all.moved_in(self.depth))
+                .unwrap_or_else(|| integrate_within(self.mesh.as_ref(), self.depth, &domain.bounds))
         })
     }
 
@@ -129,3 +130,6 @@ impl Whole<3> for Moved {
         spread(surface, count, &|p| surface.closest(p), scatter)
     }
 }
+
+#[cfg(test)]
+mod tests;
