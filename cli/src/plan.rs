@@ -386,7 +386,8 @@ where
 /// A body so many times larger than the box is a slip: what looks along its surface would never come to an end.
 const GIANT: f64 = 1e5;
 
-/// A circle or an ellipse that is larger than this, in ∆s, and than the box is not right to ∆s/100 any more: what is cut of them is polygons within 10⁻⁷ of their size.
+/// A circle or an ellipse that is larger than this, in ∆s, and than the box is not right to ∆s/100 any more: what is cut
+/// of them is polygons within 10⁻⁷ of their size.
 const COARSE_CURVE: f64 = 1e5;
 
 /// Bodies beside which the box is nothing.
@@ -420,7 +421,8 @@ fn refuse_giants<const D: usize>(scene: &Scene, all: &[Built<D>]) -> Result<(), 
     Ok(())
 }
 
-/// What the positions alone take of particles of one size all over the box; `None` where they may be only in a part of it, or larger.
+/// What the positions alone take of particles of one size all over the box; `None` where they may be only in a part of
+/// it, or larger.
 fn hopeless_bytes<const D: usize>(scene: &Scene, domain: &Domain<D>) -> Option<f64> {
     let is_all_over =
         scene.refinement.is_none() && scene.body.iter().all(|body| body.role == Role::Solid);

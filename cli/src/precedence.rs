@@ -33,8 +33,8 @@ const TOUCHING_ON_GRID: f64 = 1e-2;
 /// Room that a cut on a grid may lose, in ∆s³: a fifth of what a body may be off by.
 const LOST_ON_GRID: f64 = 0.1;
 
-/// What is left and what cut it may be so deep in each other, in ∆s: half of what is refused. Around a rod of R = 0.57 ∆s cells of
-/// ∆s/4 leave 0.12.
+/// What is left and what cut it may be so deep in each other, in ∆s: half of what is refused. Around a rod of
+/// R = 0.57 ∆s cells of ∆s/4 leave 0.12.
 const IN_EACH_OTHER: f64 = 0.5 * overlap::TOUCHING_OVER_SPACING;
 
 /// How often cells are halved for that.
@@ -43,8 +43,8 @@ const HALVINGS: usize = 2;
 /// How far the sides of a prism that stands for a cylinder are from it, in ∆s.
 const ROUND_WITHIN: f64 = 1e-4;
 
-/// The largest cylinder that a prism stands for, in ∆s: its 720 sides are then within 10⁻³ ∆s. A level set of what the box holds of a larger
-/// one is nearer.
+/// The largest cylinder that a prism stands for, in ∆s: its 720 sides are then within 10⁻³ ∆s. A level set of what the
+/// box holds of a larger one is nearer.
 const PRISM_RADIUS: f64 = 100.0;
 
 impl Cuttable<2> for Space<2> {

@@ -59,8 +59,8 @@ impl<const D: usize> Room<D> {
 }
 
 impl Room<3> {
-    /// What of a body is in the room, with the faces that the room's sides have cut it by moved away by more than the size of the box: nothing in
-    /// the box is near them. What passes a side less than a particle behind it goes straight on.
+    /// What of a body is in the room. The faces that the room's sides have left are moved away by more than the size of
+    /// the box, so that nothing in it is near them; what passes a side goes straight on from 1.5 ∆s behind it.
     pub(crate) fn carry_on(&self, mesh: Mesh) -> Result<Mesh, GeometryError> {
         let kept = self.bounds.grown(-STRETCHED * self.spacing);
         if kept.contains_box(&mesh.bounds()) {

@@ -135,8 +135,8 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
     /// `count` points scattered over the surface by area: each stands for the same part of it, but they are not spread
     /// evenly. Each is a [`Closest`] with distance 0 and the normal of the side it is on, also next to an edge.
     ///
-    /// Much cheaper than [`Surface::sample`]: exact and O(count) on outlines, meshes, ellipsoids, and flat and slender shapes by formula, some dozen queries per point
-    /// on others. There, sides nearer to each other than 1/30 of the mean distance between the points may be
+    /// Much cheaper than [`Surface::sample`]: exact and O(count) on outlines, meshes, ellipsoids, and flat and
+    /// slender shapes by formula, some dozen queries per point on others. There, sides nearer to each other than 1/30 of the mean distance between the points may be
     /// confused. Empty in other dimensions than 2 and 3, and where no area is found.
     fn scatter(&self, count: usize) -> Vec<Closest<D>> {
         crate::sample::scattered(self, count)

@@ -82,7 +82,8 @@ impl Net {
         } else {
             (domain.bounds.min[axis], -1.0)
         };
-        // Those beyond it too, but for what is farther than the box is large: a face less than ∆s/2 beyond would have its particles in the box.
+        // Those beyond it too, as far as the box is large: a face less than ∆s/2 beyond would have its particles in the
+        // box.
         let slack = slack(domain);
         let far = domain.bounds.diagonal();
         let on: Vec<usize> = (0..self.triangles.len())

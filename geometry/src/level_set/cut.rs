@@ -19,7 +19,8 @@ const BESIDE_CELLS: f64 = 6.0;
 /// What is left of `lower` where `higher` takes its room, as a mesh; `None` where nothing is left. Cells of size `cell`
 /// (scene units), halved up to three times while a slice thinner than a cell is lost: what is left and what is taken must
 /// have the body's own [volume](Surface::volume) together, but for `lost` (scene units to the power 3) and a thousandth of it.
-/// Of bodies that pass the `window` only what is in it is looked at and left ([`LevelSet::within`]); the volume is then that of a mesh of what the window holds of `lower`.
+/// Of bodies that pass the `window` only what is in it is looked at and left ([`LevelSet::within`]); the volume is then
+/// that of a mesh of what the window holds of `lower`.
 /// Costs two [level sets](LevelSet::of), two Booleans and two meshes for each size of cells.
 ///
 /// ```

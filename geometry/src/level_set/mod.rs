@@ -74,8 +74,9 @@ impl<const D: usize> LevelSet<D> {
         Ok(Self { blocks, field })
     }
 
-    /// The level set of what `window` and the body of `surface` have in common, as large as that: of a body that passes the
-    /// window only what is near or in it is asked and stored. Within the window, more than four cells from its sides, the values are those of [`LevelSet::of`].
+    /// The level set of what `window` and the body of `surface` have in common, as large as that: of a body that passes
+    /// the window only what is near or in it is asked and stored. Within the window, more than four cells from its
+    /// sides, the values are those of [`LevelSet::of`].
     ///
     /// ```
     /// use std::sync::Arc;
@@ -89,7 +90,8 @@ impl<const D: usize> LevelSet<D> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`LevelSet::of`], for what is within the window, and [`GeometryError::Parameter`] where the window is flat or endless.
+    /// Those of [`LevelSet::of`], for what is within the window, and [`GeometryError::Parameter`] where the window is
+    /// flat or endless.
     pub fn within(
         surface: Arc<dyn Surface<D>>,
         cell: f64,

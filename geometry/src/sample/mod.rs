@@ -89,17 +89,11 @@ pub(crate) fn scattered<const D: usize, S: Surface<D> + ?Sized>(
     }
     let near = |p| surface.closest(p);
     let bounds = surface.bounds();
-    let by_area = (surface.measure() / count as f64).powf(1.0 / (D as f64 - 1.0));
-    // A tube much thinner than its points are apart is a curve: by its area alone one of radius 3·10⁻⁹ took 36 s, and one of
-    // length 2·10⁶, searched as thoroughly as a plate, more than a minute. Of
+    let spacing = (surface.measure() / count as f64).powf(1.0 / (D as f64 - 1.0));
+    // A tube much thinner than its points are apart is a curve: by its area alone one of radius 3·10⁻⁹ took 36 s. Of
     // a thread that the smallest boxes do not resolve, parts may have up to 1.7 times as many points as others.
-    let by_length = point::norm(bounds.size()) / count as f64;
-    let (spacing, search) = if by_area < 0.25 * by_length {
-        (0.25 * by_length, QUICK)
-    } else {
-        (by_area, THOROUGH)
-    };
-    let mut hits = Candidates::in_boxes(&bounds, &near, spacing, count, search).hits();
+    let spacing = spacing.max(0.25 * point::norm(bounds.size()) / count as f64);
+    let mut hits = Candidates::in_boxes(&bounds, &near, spacing, count, THOROUGH).hits();
     hits.par_iter_mut().with_min_len(64).for_each(|hit| {
         let found = surface.closest(hit.point);
         hit.point = found.point;

@@ -6,8 +6,8 @@ use crate::surface::Closest;
 /// Pieces of the surface for each point.
 const PIECES: f64 = 4.0;
 
-/// Parts by which each point's place in its piece goes on from the last one's: powers of the root of x³ = x + 1, whose points fill a square most
-/// evenly (Roberts 2018).
+/// Parts by which each point's place in its piece goes on from the last one's: powers of 1/x for the root of
+/// x³ = x + 1, whose points fill a square most evenly (Roberts 2018).
 const ON: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
 /// A part of a surface, the image of the unit square.
@@ -26,14 +26,16 @@ pub(crate) struct Patch<'a, const D: usize> {
     pub(crate) at: Box<dyn Fn([f64; 2]) -> ([f64; D], [f64; D]) + 'a>,
 }
 
-/// Whether the sides of a body are so near each other, for points so far apart as `count` of them are, that a search for them would be long.
+/// Whether the sides of a body are so near each other, for points so far apart as `count` of them are, that a search
+/// for them would be long.
 pub(crate) fn are_needed<const D: usize>(thickness: f64, measure: f64, count: usize) -> bool {
     let apart = (measure / count as f64).powf(1.0 / (D as f64 - 1.0));
     thickness < 0.5 * apart
 }
 
-/// `count` points, each standing for the same area: the squares are cut into some four pieces for each point, about as long as wide. A search for the
-/// surface of a disk of radius 70 and thickness 0.2 took 87 s for 20,000 points, and one for a rod of 1 × 10⁶ three gibibytes.
+/// `count` points, each standing for the same area: the squares are cut into some four pieces for each point, about as
+/// long as wide. O(count): a search for the surface of a disk of radius 70 and thickness 0.2 took more than a minute for
+/// 20,000 points, and one for a rod of 1 × 10⁶ gibibytes.
 pub(crate) fn over<const D: usize>(patches: &[Patch<'_, D>], count: usize) -> Vec<Closest<D>> {
     if count == 0 || D < 2 {
         return Vec::new();

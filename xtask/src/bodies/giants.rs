@@ -319,7 +319,11 @@ impl Drawn for Giant {
             ],
             [held[1], exact[1]],
         );
-        faults.extend(faults_of(outcome, &[], [held[0], exact[0]]));
+        for fault in faults_of(outcome, &[], [held[0], exact[0]]) {
+            if !faults.contains(&fault) {
+                faults.push(fault);
+            }
+        }
         faults
     }
 }
