@@ -126,41 +126,90 @@ impl Soup {
     }
 }
 
+/// The way in which a triangle is looked along, to see whether another lies beyond it. Any way is a fair one:
+/// that of a sliver is rough, so what counts is how high the triangle's own corners stand in it.
+struct Outlook {
+    normal: [f64; 3],
+    /// How low and how high the triangle's own corners stand, as products with the normal.
+    low: f64,
+    high: f64,
+    /// What rounding may do to a product, for corners no farther from the origin than the unit.
+    rounding: f64,
+    /// The largest coordinate of the triangle's own corners.
+    far: f64,
+}
+
+impl Outlook {
+    fn new(normal: [f64; 3], corners: &[[f64; 3]; 3]) -> Self {
+        let heights = corners.map(|p| point::dot(normal, p));
+        Self {
+            normal,
+            low: heights.into_iter().fold(f64::INFINITY, f64::min),
+            high: heights.into_iter().fold(f64::NEG_INFINITY, f64::max),
+            rounding: 1e-12 * point::norm(normal),
+            far: largest_coordinate(corners),
+        }
+    }
+
+    /// Whether all `corners` that are not `skipped` are above the triangle, and whether all are below it, whatever
+    /// rounding did.
+    fn beyond(&self, corners: &[[f64; 3]; 3], skipped: impl Fn(usize) -> bool) -> [bool; 2] {
+        let slack = self.rounding * (self.far + largest_coordinate(corners));
+        let heights = || {
+            (0..3)
+                .filter(|&k| !skipped(k))
+                .map(|k| point::dot(self.normal, corners[k]))
+        };
+        [
+            heights().all(|h| h > self.high + slack),
+            heights().all(|h| h < self.low - slack),
+        ]
+    }
+}
+
+fn largest_coordinate(corners: &[[f64; 3]; 3]) -> f64 {
+    corners
+        .as_flattened()
+        .iter()
+        .fold(0.0_f64, |a, x| a.max(x.abs()))
+}
+
 /// All pairs of triangles that cross or touch, with how; sorted. O(n log n) for triangles that spread out.
 pub(super) fn all(soup: &Soup) -> Vec<(u32, u32, Meeting)> {
     let boxes: Vec<Bounds<3>> = (0..soup.triangles.len())
         .map(|t| Bounds::of(&soup.corners(t)))
         .collect();
-    let planes: Vec<([f64; 3], f64, f64)> = (0..soup.triangles.len())
+    // Along every triangle's normal, and outwards in its plane from each edge. Most pairs lie apart in one of these
+    // ways, clear of rounding, and need no exact sign: of a fan in one plane all do, whose signs are the slowest
+    // there are (volumes of nothing).
+    let outlooks: Vec<[Outlook; 4]> = (0..soup.triangles.len())
         .map(|t| {
             let corners = soup.corners(t);
             let normal = triangle::area_vector(&corners);
-            let offset = point::dot(normal, corners[0]);
-            // Far beyond the rounding of a product with the normal.
-            let far = corners
-                .as_flattened()
-                .iter()
-                .fold(0.0_f64, |a, x| a.max(x.abs()));
-            (normal, offset, 1e-12 * point::norm(normal) * far)
+            let outwards = |k: usize| {
+                let along = point::sub(corners[(k + 1) % 3], corners[k]);
+                Outlook::new(point::cross(along, normal), &corners)
+            };
+            [
+                Outlook::new(normal, &corners),
+                outwards(0),
+                outwards(1),
+                outwards(2),
+            ]
         })
         .collect();
     let is_beside = |i: usize, j: usize| {
-        let (normal, offset, slack) = planes[i];
+        let [normal, edges @ ..] = &outlooks[i];
+        let (mine, other) = (&soup.triangles[i], &soup.triangles[j]);
         let corners = soup.corners(j);
-        let far = corners
-            .as_flattened()
-            .iter()
-            .fold(0.0_f64, |a, x| a.max(x.abs()));
-        let slack = slack + 1e-12 * point::norm(normal) * far;
-        // A common vertex is in the plane whatever rounding says.
-        let mine = &soup.triangles[i];
-        let heights = (0..3)
-            .filter(|&k| !mine.contains(&soup.triangles[j][k]))
-            .map(|k| point::dot(normal, corners[k]) - offset);
-        let (least, most) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), h| {
-            (a.min(h), b.max(h))
-        });
-        least > slack || most < -slack
+        // A common vertex is in both, whatever rounding says.
+        let common = |k: usize| mine.contains(&other[k]);
+        normal.beyond(&corners, common).contains(&true)
+            || edges.iter().enumerate().any(|(e, outwards)| {
+                let ends = [mine[e], mine[(e + 1) % 3]];
+                let [above, _] = outwards.beyond(&corners, |k| ends.contains(&other[k]));
+                above
+            })
     };
     let shares_edge = |i: usize, j: usize| {
         let b = &soup.triangles[j];
