@@ -112,6 +112,19 @@ impl<const D: usize> Pockets<D> {
         (pocket != NONE).then_some(pocket as usize)
     }
 
+    /// The pocket in front of a body's surface where that is nearest to a place; `None` where another body is there.
+    pub(super) fn in_front(
+        &self,
+        problem: &Problem<D>,
+        body: usize,
+        place: [f64; D],
+    ) -> Option<usize> {
+        let hit = problem.bodies[body].surface.closest(place);
+        let out = PASSAGE_OVER_SPACING * problem.spacing();
+        let front = point::add_scaled(hit.point, out, hit.normal);
+        (distance(problem, front) > 0.0).then(|| self.at(problem, front))?
+    }
+
     /// The pocket of a place in the fluid: that of the nearest site that can be seen from it.
     pub(super) fn at(&self, problem: &Problem<D>, place: [f64; D]) -> Option<usize> {
         let Some(fluid) = &self.fluid else {
@@ -283,10 +296,14 @@ pub(super) fn is_open<const D: usize>(
     let way = point::sub(to, from);
     let length = point::norm(way);
     let least = 0.5 * PASSAGE_OVER_SPACING * problem.spacing();
-    let mut gone = ends[0].max(least);
+    // Out of a body, where the way begins in one.
+    let first = if ends[0] > 0.0 { 1e-3 } else { 1.0 };
+    let mut gone = ends[0].max(first * least);
     while gone < length - ends[1] {
         let room = distance(problem, point::add_scaled(from, gone / length, way));
-        if room < least {
+        // Beside its ends, which may be as near to a surface as they like, a passage grows as it is left behind.
+        let from_end = gone.min(length - gone);
+        if room < least.min(0.5 * from_end) {
             return false;
         }
         gone += room;

@@ -1,13 +1,14 @@
 //! Where the particles of every region start: lattice sites, and places between them where there are too few.
 
 use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
 use sphpack_geometry::Closest;
+use sphpack_neighbors::Odometer;
 use sphpack_neighbors::random::scrambled;
-use sphpack_neighbors::{KdTree, Odometer, point};
 
+use super::places::{self, Lack};
 use super::pockets::Pockets;
+use super::rim::{self, Candidate};
 use super::shares::Share;
 use crate::depths::Depths;
 use crate::problem::{DEFAULT_INSET_OVER_SPACING, Problem};
@@ -59,21 +60,38 @@ pub(super) fn choose<const D: usize>(
         }
         let depth = depths.within(parts, i);
         if depth > -beyond
-            && let Some(pocket) = pockets.of_site(i)
+            && let Some(pocket) = (pockets.of_site(i))
+                .or_else(|| pocket_in_front(problem, depths, pockets, (i, sites[i])))
         {
             of_region[parts + pocket].push((i as u32, depth));
         }
     }
     let mut region_of: Vec<Option<u32>> = vec![None; sites.len()];
-    let mut lacking: Vec<(u32, usize)> = Vec::new();
+    let mut lacking: Vec<Lack<D>> = Vec::new();
     for (region, (share, own)) in regions.iter().zip(&of_region).enumerate() {
-        let free = (own.iter())
+        let free: Vec<Candidate<D>> = (own.iter())
             .filter(|(i, _)| region_of[*i as usize].is_none())
-            .map(|&(i, depth)| (i as usize, depth));
-        let mut kept = deepest(free, share.sites, problem.spacing(), problem.seed);
-        kept.retain(|&i| is_clear(problem, depths, region, i));
+            .map(|&(i, depth)| Candidate {
+                site: i as usize,
+                place: sites[i as usize],
+                depth,
+            })
+            .collect();
+        let mut kept = rim::chosen(&free, share.sites, problem.spacing(), problem.seed);
+        let mut beside = Vec::new();
+        kept.retain(|&i| {
+            let is_clear = is_clear(problem, depths, region, i);
+            if !is_clear {
+                beside.push(sites[i]);
+            }
+            is_clear
+        });
         if kept.len() < share.sites {
-            lacking.push((region as u32, share.sites - kept.len()));
+            lacking.push(Lack {
+                region: region as u32,
+                count: share.sites - kept.len(),
+                beside,
+            });
         }
         for i in kept {
             region_of[i] = Some(region as u32);
@@ -85,19 +103,20 @@ pub(super) fn choose<const D: usize>(
         let mut taken: Vec<[f64; D]> = on_surface.iter().map(|hit| hit.point).collect();
         let kept = (0..sites.len()).filter(|&i| region_of[i].is_some());
         taken.extend(kept.map(|i| sites[i]));
-        for (region, lack) in lacking {
-            let places = between(problem, pockets, region as usize, on_surface);
-            let none = lack == regions[region as usize].sites && places.len() == 1;
+        for lack in lacking {
+            let region = lack.region as usize;
+            let places = between(problem, pockets, region, on_surface);
+            let none = lack.count == regions[region].sites && places.len() == 1;
             let least = if none {
                 0.0
             } else {
                 ROOM_OVER_SPACING * problem.spacing()
             };
-            let found = roomiest(&places, &taken, lack, least);
-            count[region as usize] -= lack - found.len();
+            let found = places::found(&places, &taken, &lack, least, problem.spacing());
+            count[region] -= lack.count - found.len();
             for place in found {
                 taken.push(place);
-                more.push((place, region));
+                more.push((place, lack.region));
             }
         }
     }
@@ -106,6 +125,18 @@ pub(super) fn choose<const D: usize>(
         more,
         count,
     }
+}
+
+/// The pocket of fluid in front of the body that a site is in, just behind its surface.
+fn pocket_in_front<const D: usize>(
+    problem: &Problem<D>,
+    depths: &Depths,
+    pockets: &Pockets<D>,
+    (site, place): (usize, [f64; D]),
+) -> Option<usize> {
+    let nearest = (depths.around(site)).min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let (body, phi) = nearest?;
+    (phi <= 0.0).then(|| pockets.in_front(problem, body, place))?
 }
 
 /// Whether a site is clear of the particle surfaces around its region.
@@ -179,67 +210,6 @@ fn between<const D: usize>(
         return deepest.map(|i| places[i]).into_iter().collect();
     }
     clear
-}
-
-/// A place, and how far it is from what was taken when that was last looked at.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Room {
-    distance: f64,
-    place: usize,
-    /// Of the places that were taken since, those that `distance` knows.
-    known: usize,
-}
-
-impl Eq for Room {}
-
-impl Ord for Room {
-    fn cmp(&self, other: &Self) -> Ordering {
-        (self.distance.total_cmp(&other.distance)).then(other.place.cmp(&self.place))
-    }
-}
-
-impl PartialOrd for Room {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-/// One after another, at most `count`, the places that are farthest from all that are taken, none nearer than `least`.
-fn roomiest<const D: usize>(
-    places: &[[f64; D]],
-    taken: &[[f64; D]],
-    count: usize,
-    least: f64,
-) -> Vec<[f64; D]> {
-    let tree = KdTree::new(taken).ok();
-    let mut heap: BinaryHeap<Room> = (places.iter().enumerate())
-        .map(|(place, &p)| Room {
-            distance: (tree.as_ref())
-                .and_then(|tree| tree.nearest(p))
-                .map_or(f64::INFINITY, |hit| hit.distance),
-            place,
-            known: 0,
-        })
-        .collect();
-    let mut chosen: Vec<[f64; D]> = Vec::new();
-    while chosen.len() < count
-        && let Some(room) = heap.pop()
-        && room.distance >= least
-    {
-        if room.known == chosen.len() {
-            chosen.push(places[room.place]);
-            continue;
-        }
-        let distance = (chosen[room.known..].iter()).fold(room.distance, |least, &other| {
-            least.min(point::distance(places[room.place], other))
-        });
-        heap.push(Room {
-            distance,
-            known: chosen.len(),
-            ..room
-        });
-    }
-    chosen
 }
 
 /// The deepest of a region's sites, `count` of them, of `sites` with their depths. Depths are compared to within 10⁻⁹ ∆s, so

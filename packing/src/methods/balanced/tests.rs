@@ -203,6 +203,30 @@ fn bodies_inside_bodies_and_holes_get_their_share() {
 }
 
 /// Bodies that touch, and bodies with a slit between them, on exact and on inset surfaces.
+/// Long flat sides along the rows of the lattice, at any height between them.
+#[test]
+fn rows_along_a_flat_side_have_nothing_to_carry_away() {
+    for spacing in [0.0228, 0.0258] {
+        let margin = 8.0 * spacing;
+        let domain = Domain::new(
+            [-1.0 - margin, -0.05 - margin],
+            [1.0 + margin, 2.15 + margin],
+        );
+        let mut problem = Problem::new(domain, spacing);
+        for (name, k) in [("a", 0), ("b", 1), ("c", 2), ("d", 3), ("e", 4)] {
+            let (middle, half) = (0.5 * f64::from(k), 0.05 + 0.025 * f64::from(k));
+            let strip = Cuboid::new([-1.0, middle - half], [1.0, middle + half]);
+            problem = problem.body(name, strip.expect("a strip"));
+        }
+        let packed = pack(&problem);
+        // 124 and 133; where a row is in or out as a whole, 290 and 294.
+        let evaluations = packed.force_evaluations;
+        assert!(evaluations < 200, "{evaluations} at {spacing}");
+        assert_eq!(packed.stop_reason, StopReason::Converged);
+        assert!(linf(&problem, &packed) < 3e-3);
+    }
+}
+
 #[test]
 fn surfaces_near_each_other_keep_particles_apart() {
     for gap in [0.0, 0.3, 1.5] {
