@@ -9,6 +9,7 @@ mod labels;
 mod one;
 mod packings;
 mod page;
+mod pairs;
 mod panel;
 mod pareto;
 mod points;

@@ -210,7 +210,7 @@ fn fronts(sheet: &Sheet) -> Table {
 
 /// Every point of every scene.
 fn csv(sheets: &[Sheet]) -> String {
-    let mut text = "scene,spacing,factor,name,particles,evaluations,seconds,processor_seconds,peak_memory_bytes,linf,residual,\
+    let mut text = "scene,spacing,factor,name,particles,evaluations,pairs,seconds,processor_seconds,peak_memory_bytes,linf,residual,\
                     function_over_lattice,derivative_over_lattice,closest_pair_over_spacing,on_surface_over_target,stop_reason,judged_by,judged_linf\n"
         .to_owned();
     for sheet in sheets {
@@ -223,13 +223,14 @@ fn csv(sheets: &[Sheet]) -> String {
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
                 sheet.place.scene,
                 point.scene.spacing,
                 point.factor.name(),
                 point.name,
                 figures.particles,
                 figures.evaluations,
+                figures.pairs,
                 figures.seconds,
                 figures.processor_seconds,
                 figures.peak_memory_bytes,

@@ -22,7 +22,6 @@ use crate::power_law::PowerLaw;
 use crate::selection::Selection;
 use crate::workspace::root;
 use claims::{FIGURES, KNOWN_MISSES};
-pub(crate) use interpolation::study;
 use measure::Measure;
 pub(crate) use measured::paint;
 use measured::{Measured, Store};
