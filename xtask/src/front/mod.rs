@@ -1,6 +1,7 @@
 //! Speed charted against accuracy: every method, and one setting of the default at a time.
 
 mod advice;
+mod choices;
 mod errors;
 mod figures;
 mod judged;
@@ -15,8 +16,10 @@ mod pareto;
 mod points;
 mod shapes;
 mod sheet;
+mod shipped_table;
 mod table;
 
+use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -119,6 +122,12 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         }
     }
     eprintln!("── {}", folder.join("index.html").display());
+    // Of some scenes alone it would promise what the others do not keep.
+    if selection.write && selection.only.is_none() && !selection.quick {
+        let path = root().join(shipped_table::FILE);
+        fs::write(&path, shipped_table::text(&sheets))
+            .map_err(|error| format!("{}: {error}", path.display()))?;
+    }
     print!("{}", advice::table(&sheets).markdown());
     let beaten = advice::beaten(&sheets);
     if beaten.is_empty() {

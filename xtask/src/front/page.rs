@@ -165,8 +165,10 @@ fn about() -> String {
          stop after 2,000 iterations. On the fronts is what nothing else beats in both figures, among packings that have at least\n\
          nine tenths of N_s on the surface and no pair nearer than ∆s/2: a clipped lattice is as even as any lattice, and is\n\
          not the body. \"masses ±1 %\" has masses corrected by so much at most; \"κ\" is `levelling`, \"tolerance\"\n\
-         `residual_tolerance`, \"evaluations\" `max_iterations`, a kernel's number its h/∆s. Errors of the interpolated sin(r²)\n\
-         and of its derivative are apart from those of the packing's own lattice, undisturbed, by so much.",
+         `residual_tolerance`, \"evaluations\" `max_iterations`, a kernel's number its h/∆s. Pairs are those that all\n\
+         sums go over, about: whatever the machine. Errors of an interpolated wave and of its derivative (sin(r²/u²), r from the\n\
+         middle of the box and u a quarter of its longest edge) are apart from those of the packing's own lattice, undisturbed, by\n\
+         so much.",
         judges::name(judges::DENSITY)
     )
 }
