@@ -71,6 +71,7 @@
 
 mod asked;
 mod audit;
+mod auto;
 mod beyond;
 mod body_file;
 mod checkpoint;
@@ -88,6 +89,7 @@ mod hydrostatic;
 mod labels;
 mod memory;
 mod methods;
+mod opened;
 mod overlap;
 pub mod picture;
 mod plan;
@@ -106,6 +108,7 @@ mod table;
 mod units;
 
 pub use audit::{Audit, Audited, Unsound};
+pub use auto::{AutoReport, Choice, Picked, choices};
 pub use body_file::{ReadBody, body_format};
 pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};

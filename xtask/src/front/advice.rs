@@ -41,7 +41,7 @@ pub(super) fn table(sheets: &[Sheet]) -> Table {
             let mut row = vec![error.title().to_owned(), short(goal)];
             row.extend(together.iter().map(|front| match cheapest(front, goal) {
                 Some(choice) => said(choice),
-                None => "nothing charted".to_owned(),
+                None => NOTHING.to_owned(),
             }));
             row.extend(alone.iter().map(|front| match cheapest(front, goal) {
                 Some(Choice { name, cost, .. }) => format!("{name} ({cost:.2} ×)"),
@@ -52,6 +52,9 @@ pub(super) fn table(sheets: &[Sheet]) -> Table {
     }
     table
 }
+
+/// In a cell, where no settings keep a goal.
+const NOTHING: &str = "nothing charted";
 
 /// A choice in a cell.
 fn said(choice: &Choice) -> String {
@@ -95,7 +98,41 @@ pub(super) fn beaten(sheets: &[Sheet]) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
+    use crate::workspace::root;
+
+    /// What the command picks is what docs/chart.md advises.
+    #[test]
+    fn the_page_and_the_shipped_table_agree() {
+        let page = fs::read_to_string(root().join("docs/chart.md")).unwrap();
+        let shipped = sphpack::choices().unwrap();
+        let cell = |dimension: usize, error: Error, goal: f64| {
+            let front: Vec<Choice> = (shipped.iter())
+                .filter(|line| line.dimension == dimension && line.measure.name() == error.key())
+                .map(|line| Choice {
+                    name: line.name.clone(),
+                    settings: line.settings.clone(),
+                    cost: line.cost,
+                    error: error.unit() * line.accuracy,
+                })
+                .collect();
+            cheapest(&front, goal).map_or_else(|| NOTHING.to_owned(), said)
+        };
+        for (error, goals) in GOALS {
+            for &goal in goals {
+                let row = format!(
+                    "| {} | {} | {} | {} |",
+                    error.title().replace('|', "\\|"),
+                    short(goal),
+                    cell(2, error, goal),
+                    cell(3, error, goal)
+                );
+                assert!(page.contains(&row), "docs/chart.md lacks {row}");
+            }
+        }
+    }
 
     #[test]
     fn numbers_are_short() {

@@ -5,7 +5,7 @@ use sphpack::scene::Finish;
 use super::errors::Error;
 use super::figures::Figures;
 use super::pareto::front;
-use super::points::{DEFAULT, Point};
+use super::points::{DEFAULT, Factor, Point};
 use super::sheet::Sheet;
 
 /// What settings come to.
@@ -64,16 +64,19 @@ fn of(sheet: &Sheet, point: &Point, error: Error) -> Option<Choice> {
 /// A published method fails audits where its paper's algorithm does; the finish "calm" is for some thousand particles; and
 /// what has not come to rest is not done.
 fn may_be_taken(point: &Point, figures: &Figures) -> bool {
+    may_be_asked(point) && figures.stop_reason == "converged"
+}
+
+/// Whether a packing of the point could be taken, as far as that is known before it is packed.
+pub(super) fn may_be_asked(point: &Point) -> bool {
     let packing = &point.scene.packing;
-    !packing.method.info().is_published
-        && packing.finish != Finish::Calm
-        && figures.stop_reason == "converged"
+    let is_ours = !packing.method.info().is_published && packing.finish != Finish::Calm;
+    is_ours && point.factor != Factor::Spacing
 }
 
 /// Keys of `[packing]` whose values differ.
 fn differing(point: &Point, from: &Point) -> Option<toml::Table> {
-    let [own, usual] =
-        [point, from].map(|point| toml::Table::try_from(&point.scene.packing).ok());
+    let [own, usual] = [point, from].map(|point| toml::Table::try_from(&point.scene.packing).ok());
     let usual = usual?;
     Some(
         own?.into_iter()

@@ -17,12 +17,8 @@ pub(super) enum Error {
 
 impl Error {
     /// All, in the order of tables.
-    pub(super) const ALL: [Self; 4] = [
-        Self::Linf,
-        Self::Residual,
-        Self::Function,
-        Self::Derivative,
-    ];
+    pub(super) const ALL: [Self; 4] =
+        [Self::Linf, Self::Residual, Self::Function, Self::Derivative];
 
     /// As a scene's `accuracy` calls it.
     pub(super) fn key(self) -> &'static str {

@@ -35,6 +35,8 @@ use sheet::Sheet;
 #[derive(Debug, Default)]
 pub(crate) struct Settings {
     selection: Selection,
+    /// Only what may be advised, and nothing but the advice and the shipped table.
+    advice: bool,
     /// Pack the scene of this file alone, as the chart has its children do; the result goes beside it.
     one: Option<PathBuf>,
 }
@@ -46,12 +48,14 @@ impl Settings {
         "--only SCENE",
         "--data DIR",
         "--write",
+        "--advice",
         "--one FILE",
     ];
 
     pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
         Ok(Self {
             selection: Selection::of(arguments)?,
+            advice: arguments.has("--advice"),
             one: arguments.path("--one"),
         })
     }
@@ -63,6 +67,7 @@ impl Settings {
                 quick: true,
                 ..Selection::default()
             },
+            advice: false,
             one: None,
         }
     }
@@ -79,7 +84,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let packings = Packings::open(&folder.join("packings"))?;
     let mut asked: Vec<(Place, Vec<Point>)> = Vec::new();
     for place in places(selection) {
-        let points = points(place, selection)?;
+        let mut points = points(place, selection)?;
+        if settings.advice {
+            points.retain(choices::may_be_asked);
+        }
         if !points.is_empty() {
             asked.push((place, points));
         }
@@ -116,12 +124,20 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         sheets.push(sheet);
         // After each scene: whoever stops here has what there is.
         let missing = &names[sheets.len()..];
+        if settings.advice {
+            continue;
+        }
         page::write(&folder, &sheets, missing)?;
         if selection.write {
             page::document(&root().join("docs"), &sheets, missing)?;
         }
     }
-    eprintln!("── {}", folder.join("index.html").display());
+    if !settings.advice {
+        eprintln!("── {}", folder.join("index.html").display());
+    }
+    if selection.write && settings.advice {
+        page::advise(&root().join("docs"), &sheets)?;
+    }
     // Of some scenes alone it would promise what the others do not keep.
     if selection.write && selection.only.is_none() && !selection.quick {
         let path = root().join(shipped_table::FILE);

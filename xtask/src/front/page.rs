@@ -70,6 +70,24 @@ pub(super) fn document(folder: &Path, sheets: &[Sheet], missing: &[&str]) -> Res
     put(&folder.join("chart.md"), &format!("{}\n", page.trim_end()))
 }
 
+/// The advice of [`document`], in its place in the folder of the docs.
+pub(super) fn advise(folder: &Path, sheets: &[Sheet]) -> Result<(), String> {
+    let path = folder.join("chart.md");
+    let page = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let heading = format!("## {ADVICE}\n");
+    let cut = page.split_once(heading.as_str());
+    let (before, rest) = cut.ok_or_else(|| format!("{} has no \"{ADVICE}\"", path.display()))?;
+    let after = rest.find("\n## ").map_or("", |at| &rest[at..]);
+    let table = advice::table(sheets).markdown();
+    put(
+        &path,
+        &format!("{before}{heading}\n{}\n\n{table}{after}", advice::RULE),
+    )
+}
+
+/// The heading of the advice.
+const ADVICE: &str = "Which method and settings to take when";
+
 fn put(path: &Path, text: &str) -> Result<(), String> {
     fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
@@ -108,7 +126,7 @@ fn parts<'a>(sheets: &'a [Sheet], missing: &[&str]) -> Vec<Part<'a>> {
         )));
     }
     parts.extend([
-        Part::Heading(2, "Which method and settings to take when".to_owned()),
+        Part::Heading(2, ADVICE.to_owned()),
         Part::Text(advice::RULE.to_owned()),
         Part::Table(advice::table(sheets)),
     ]);

@@ -3,7 +3,6 @@
 use super::row::Figure;
 
 const FLOW: Option<&str> = Some("it shows a flow, which nothing here computes yet");
-const ELSEWHERE: Option<&str> = Some("in docs/methods.md or docs/lattices.md, not yet a row here");
 
 const fn shown(paper: &'static str, figure: &'static str, claim: &'static str) -> Figure {
     Figure {
@@ -27,11 +26,22 @@ const fn missing(
 }
 
 /// What every figure shows, in our words; those without rows say why.
-pub(crate) const FIGURES: [Figure; 30] = [
+pub(crate) const FIGURES: [Figure; 33] = [
+    shown("000", "fig7", "which lattices stand a perturbation"),
     shown(
         "000",
-        "fig7",
-        "which lattices stand a perturbation; what agitators do to them stands in docs/methods.md",
+        "fig7b",
+        "which lattices of the plane stand an agitator that becomes a free particle",
+    ),
+    shown(
+        "000",
+        "fig14a",
+        "which lattices of space stand a perturbation among frozen particles",
+    ),
+    shown(
+        "000",
+        "fig14b",
+        "which of them stand an agitator that becomes a free particle",
     ),
     shown(
         "000",
@@ -122,11 +132,10 @@ pub(crate) const FIGURES: [Figure; 30] = [
         "a packed airfoil at 5°, its surface found by the divergence of positions",
     ),
     shown("003", "fig24", "an S, before it turns"),
-    missing(
+    shown(
         "004",
         "fig8",
-        "an airfoil of three elements, the gaps at its edges",
-        ELSEWHERE,
+        "an airfoil of three elements by separate and complex relaxation, and without a Boolean: gaps and kernel gradients at its edges",
     ),
     shown(
         "004",

@@ -11,6 +11,7 @@ mod row;
 mod rows;
 mod setup;
 mod subject;
+mod thumbnail;
 mod trials;
 
 use std::collections::BTreeSet;
@@ -29,6 +30,7 @@ use page::{Result as Ended, Verdict, figure, published};
 use row::{Row, Taken};
 use rows::rows;
 use setup::Setup;
+pub(crate) use trials::{REVOLUTION, Stirred};
 
 /// The papers that have rows.
 const PAPERS: &str = "000|001|002|003|004";

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::claims::FIGURES;
 use super::row::{Figure, Published, Row};
+use super::thumbnail::thumbnail;
 
 /// A row, and what came of it.
 pub(crate) struct Result {
@@ -129,7 +130,7 @@ fn summary(result: &Result) -> Value {
     })
 }
 
-/// Pictures of a figure, at most: each takes about half a megabyte of the page.
+/// Pictures of a figure, at most.
 const PICTURES: usize = 3;
 
 const HEAD: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Packing, published and ours</title>\n<style>\
@@ -203,7 +204,7 @@ fn section(out: &mut String, figure: &Figure, own: &[&Result]) -> std::result::R
             continue;
         }
         seen.push(picture);
-        let bytes = fs::read(picture).map_err(|error| format!("{}: {error}", picture.display()))?;
+        let bytes = thumbnail(picture)?;
         let subject = &result.row.subject;
         let from = (subject.packing()).map_or_else(String::new, |setup| {
             format!("; scenes/{}.toml", setup.scene)
