@@ -178,20 +178,23 @@ fn faults_name_the_place_and_the_cure() {
 #[test]
 fn every_measure_is_measured_and_judged() {
     for measure in AccuracyMeasure::ALL {
-        for (asked, is_reached) in [(1e3, true), (1e-12, false)] {
+        for asked in [1e3, 1e-12] {
             let scene = scene(&format!(
                 "accuracy = {{ {measure} = {asked:e} }}\nmax_iterations = 200\n"
             ));
             let outcome = run(&scene, &Options::default(), &mut Silent).unwrap();
             let report = outcome.report;
             let auto = report.auto.unwrap();
-            assert_eq!(auto.reached, Some(is_reached), "{measure}: {auto:?}");
             let measured = auto.measured.unwrap();
             match measure {
                 AccuracyMeasure::Linf => assert_eq!(measured, report.density.linf),
                 AccuracyMeasure::Residual => assert_eq!(measured, report.residual.max),
-                _ => assert!(measured.abs() < 1.0, "{measured}"),
+                // Particles may interpolate better than their lattice.
+                _ => assert!(measured.abs() < 1.0 && measured != 0.0, "{measured}"),
             }
+            let is_reached = measured <= asked;
+            assert!(is_reached || asked < 1.0, "{measure}: {auto:?}");
+            assert_eq!(auto.reached, Some(is_reached), "{measure}: {auto:?}");
             assert_eq!(auto.worst_at.len(), 2);
             let words = auto.words().unwrap();
             assert_eq!(words.starts_with("reached"), is_reached, "{words}");

@@ -37,6 +37,8 @@ pub(crate) struct Settings {
     selection: Selection,
     /// Only what may be advised, and nothing but the advice and the shipped table.
     advice: bool,
+    /// Pack nothing: of what was packed before.
+    known: bool,
     /// Pack the scene of this file alone, as the chart has its children do; the result goes beside it.
     one: Option<PathBuf>,
 }
@@ -49,6 +51,7 @@ impl Settings {
         "--data DIR",
         "--write",
         "--advice",
+        "--known",
         "--one FILE",
     ];
 
@@ -56,6 +59,7 @@ impl Settings {
         Ok(Self {
             selection: Selection::of(arguments)?,
             advice: arguments.has("--advice"),
+            known: arguments.has("--known"),
             one: arguments.path("--one"),
         })
     }
@@ -68,6 +72,7 @@ impl Settings {
                 ..Selection::default()
             },
             advice: false,
+            known: false,
             one: None,
         }
     }
@@ -108,6 +113,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         for point in points {
             done += 1;
             let was_known = packings.known(&point.scene).is_some();
+            if !was_known && settings.known {
+                continue;
+            }
             if !was_known {
                 eprintln!(
                     "── {done} of {total}: {}, {}, after {:.0} s",
