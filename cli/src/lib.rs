@@ -71,7 +71,7 @@
 
 mod asked;
 mod audit;
-mod auto;
+pub mod auto;
 mod beyond;
 mod body_file;
 mod checkpoint;
@@ -108,7 +108,6 @@ mod table;
 mod units;
 
 pub use audit::{Audit, Audited, Unsound};
-pub use auto::{AutoReport, Choice, Picked, choices};
 pub use body_file::{ReadBody, body_format};
 pub use cloud::{Cloud, CloudQuality};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};

@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn the_page_and_the_shipped_table_agree() {
         let page = fs::read_to_string(root().join("docs/chart.md")).unwrap();
-        let shipped = sphpack::choices().unwrap();
+        let shipped = sphpack::auto::choices().unwrap();
         let cell = |dimension: usize, error: Error, goal: f64| {
             let front: Vec<Choice> = (shipped.iter())
                 .filter(|line| line.dimension == dimension && line.measure.name() == error.key())
