@@ -20,8 +20,12 @@ pub(super) struct Choice {
     pub(super) error: f64,
 }
 
-/// The front, the cheapest first; empty where there are no scenes.
+/// The front, the cheapest first; empty where there are no scenes. A scene of which the error was not measured, as there are too
+/// many particles, takes no part.
 pub(super) fn choices(sheets: &[&Sheet], error: Error) -> Vec<Choice> {
+    let is_measured =
+        |sheet: &&&Sheet| (sheet.rivals()).any(|(_, figures, _)| error.of(figures).is_some());
+    let sheets: Vec<&Sheet> = sheets.iter().filter(is_measured).copied().collect();
     let Some((first, others)) = sheets.split_first() else {
         return Vec::new();
     };
