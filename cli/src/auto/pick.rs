@@ -24,7 +24,7 @@ const BESIDE: [&str; 6] = [
 /// What was picked for a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Picked {
-    /// What was asked for; `None` where the best trade was.
+    /// What was asked for; `None` where nothing was.
     pub measure: Option<AccuracyMeasure>,
     /// And how small.
     pub asked: Option<f64>,
@@ -67,7 +67,7 @@ pub(crate) fn settled(scene: &Scene, dimension: usize) -> Result<(Scene, Option<
         Some((_, most)) => (possible.iter())
             .position(|(choice, ..)| choice.accuracy <= most)
             .unwrap_or(possible.len().saturating_sub(1)),
-        None => best_trade(&possible),
+        None => usual(&possible),
     };
     let finer = (possible.get(number + 1)).map(|(next, ..)| (next.accuracy, next.name.clone()));
     if number >= possible.len() {
@@ -104,12 +104,13 @@ fn kernel_words((kernel, h): (KernelKind, f64)) -> String {
     format!("{kernel} at h/∆s = {h}")
 }
 
-/// The least product of cost and accuracy: on double logarithmic axes the one nearest to the corner.
-fn best_trade(possible: &[(Choice, Scene, Vec<String>)]) -> usize {
+/// Where nothing is asked for: the default, or where something beats that, the least product of cost and accuracy, which on double
+/// logarithmic axes is nearest to the corner.
+fn usual(possible: &[(Choice, Scene, Vec<String>)]) -> usize {
     let product = |i: usize| possible[i].0.cost * possible[i].0.accuracy;
-    (0..possible.len())
-        .min_by(|&a, &b| product(a).total_cmp(&product(b)))
-        .unwrap_or(0)
+    let default = (possible.iter()).position(|(choice, ..)| choice.settings.is_empty());
+    let best = || (0..possible.len()).min_by(|&a, &b| product(a).total_cmp(&product(b)));
+    default.or_else(best).unwrap_or(0)
 }
 
 /// The scene with these settings, and what of its own is beside them or instead. Its own settings stay; so does the kernel
@@ -192,7 +193,7 @@ impl Picked {
                 number(asked)
             ),
             _ => format!(
-                "auto takes {name} ({settings}), the best trade of those charted: linf {charted} at worst, {times}"
+                "auto takes {name} ({settings}), as no accuracy is asked for: on the charted scenes linf came to {charted} at worst, {times}"
             ),
         }];
         if !self.kept.is_empty() {
