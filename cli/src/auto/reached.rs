@@ -140,7 +140,7 @@ impl Picked {
                 self.kept.join(", ")
             ),
             _ if is_too_fine => format!(
-                "no charted settings came below {}; ask for that, or use a smaller spacing if the place is thin, narrow or sharp",
+                "no charted settings promise less than {}; ask for that, or use a smaller spacing if the place is thin, narrow or sharp",
                 number(self.charted)
             ),
             Some((accuracy, name)) => format!(
