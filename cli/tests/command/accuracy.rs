@@ -17,7 +17,7 @@ const PACK: [&str; 6] = [
     "pack",
     "scene.toml",
     "-o",
-    "out.vtu",
+    "out.ply",
     "--report",
     "out.json",
 ];
@@ -49,8 +49,11 @@ fn an_accuracy_that_is_reached() {
     assert_eq!(auto["measure"], "linf");
     assert_eq!(auto["asked"], 0.02);
     assert!(auto["measured"].as_f64().expect("a number") <= 0.02);
-    let text = String::from_utf8_lossy(&desk.read("out.vtu")).into_owned();
-    assert!(text.contains("converged"), "the file's own mark");
+    let text = String::from_utf8_lossy(&desk.read("out.ply")).into_owned();
+    assert!(
+        text.contains("stop_reason converged"),
+        "the file's own mark"
+    );
 }
 
 #[test]
@@ -76,9 +79,12 @@ fn an_accuracy_that_is_not_reached() {
     let auto = auto(&desk);
     assert_eq!(auto["reached"], false);
     assert_eq!(auto["worst_at"].as_array().expect("a place").len(), 2);
-    let text = String::from_utf8_lossy(&desk.read("out.vtu")).into_owned();
-    assert!(text.contains("inaccurate"), "the file's own mark");
-    let quiet = desk.run(&["pack", "scene.toml", "-o", "out.vtu", "--force", "-q"]);
+    let text = String::from_utf8_lossy(&desk.read("out.ply")).into_owned();
+    assert!(
+        text.contains("stop_reason inaccurate"),
+        "the file's own mark"
+    );
+    let quiet = desk.run(&["pack", "scene.toml", "-o", "out.ply", "--force", "-q"]);
     assert_eq!((quiet.status, quiet.stdout.as_str()), (Some(3), ""));
     assert_eq!(quiet.stderr.lines().count(), 1, "{}", quiet.stderr);
     assert!(
