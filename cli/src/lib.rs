@@ -71,6 +71,7 @@
 
 mod asked;
 mod audit;
+pub mod auto;
 mod beyond;
 mod body_file;
 mod checkpoint;
@@ -88,6 +89,7 @@ mod hydrostatic;
 mod labels;
 mod memory;
 mod methods;
+mod opened;
 mod overlap;
 pub mod picture;
 mod plan;

@@ -26,7 +26,8 @@ where
     let packing = &scene.packing;
     let max_iterations = packing.max_iterations;
     match packing.method {
-        Method::Balanced => Box::new(Balanced {
+        // Settings of "auto" are picked when the scene is opened.
+        Method::Balanced | Method::Auto => Box::new(Balanced {
             settling: packing.settling(),
             band: packing.band(),
         }),

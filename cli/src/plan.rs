@@ -7,9 +7,11 @@ use sphpack_neighbors::{Bounds, Domain, point, words};
 use sphpack_packing::{Body, Estimate, FrozenLayout, Kind, Moves, PackingError, Problem};
 
 use crate::Error;
-use crate::body_file::{BodyFile, ReadBody, of_body};
+use crate::auto::Picked;
+use crate::body_file::ReadBody;
 use crate::dimension::{Built, Dimension, Space, in_dimension};
 use crate::error::cured;
+use crate::opened::{Opened, opened};
 use crate::scene::{Fault, Frozen, Role, Scene, Shape, Surroundings};
 use crate::spacings;
 use crate::{beyond, methods, overlap, precedence, roles, units};
@@ -25,6 +27,10 @@ pub struct Plan {
     pub read: Vec<ReadBody>,
     /// Particles, memory and time.
     pub estimate: Estimate,
+    /// Evaluations until particles are at rest, in the middle of what scenes take.
+    pub evaluations: f64,
+    /// What was picked for the method "auto".
+    pub picked: Option<Picked>,
     /// Where spacings differ, how many times as many particles the finest alone would take.
     pub times_fewer: Option<f64>,
     /// Seconds that the bodies took to be built.
@@ -69,19 +75,21 @@ const READ_BYTES: f64 = 315.0;
 /// Those of [`crate::run`].
 pub fn plan(scene: &Scene, memory_bytes: Option<f64>) -> Result<Plan, Error> {
     let allowed_bytes = memory_bytes.unwrap_or_else(available_bytes);
-    planned_of(scene, opened(scene)?, allowed_bytes)
+    planned_of(opened(scene)?, allowed_bytes)
 }
 
 /// [`plan`] of a scene whose bodies' files are read.
-pub(crate) fn planned_of(scene: &Scene, opened: Opened, allowed_bytes: f64) -> Result<Plan, Error> {
-    in_dimension!(opened.dimension, D => planned::<D>(scene, opened, allowed_bytes))
+pub(crate) fn planned_of(opened: Opened, allowed_bytes: f64) -> Result<Plan, Error> {
+    in_dimension!(opened.dimension, D => planned::<D>(opened, allowed_bytes))
 }
 
-fn planned<const D: usize>(scene: &Scene, opened: Opened, allowed_bytes: f64) -> Result<Plan, Error>
+fn planned<const D: usize>(opened: Opened, allowed_bytes: f64) -> Result<Plan, Error>
 where
     Space<D>: Dimension<D>,
 {
-    let (prepared, estimate) = prepare::<D>(scene, opened, allowed_bytes)?;
+    let picked = opened.picked.clone();
+    let evaluations = opened.scene.typical_evaluations();
+    let (prepared, estimate) = prepare::<D>(opened, allowed_bytes)?;
     methods::check(&prepared.problem, &prepared.resolved)?;
     let names = prepared.resolved.body.into_iter().map(|body| body.name);
     let problem = &prepared.problem;
@@ -94,95 +102,13 @@ where
         read: prepared.read,
         times_fewer,
         estimate,
+        evaluations,
+        picked,
         building_seconds: prepared.seconds,
         allowed_bytes,
         repairs: names.zip(prepared.repairs).collect(),
         cut: prepared.cut,
     })
-}
-
-/// A scene's dimension, and what its bodies' files hold, in their order.
-pub(crate) struct Opened {
-    pub(crate) dimension: usize,
-    files: Vec<Option<BodyFile>>,
-}
-
-/// Reads the bodies' files, each once. Refuses scenes that do not pass [`Scene::check`], or mix dimensions.
-pub(crate) fn opened(scene: &Scene) -> Result<Opened, Error> {
-    let mut files = Vec::new();
-    let fail = |message: String| Error::Scene {
-        path: scene.path.clone(),
-        at: None,
-        message,
-    };
-    scene
-        .check()
-        .map_err(|Fault { message, .. }| fail(message))?;
-    let mut known = scene
-        .domain
-        .min
-        .as_ref()
-        .map(|min| (min.len(), "the domain".to_owned()));
-    for body in &scene.body {
-        let (dimension, what) = match body.shape.file() {
-            Some(file) => {
-                let path = scene.resolve(file);
-                let read = BodyFile::read(&path)
-                    .map_err(|error| of_body(error, &scene.path, &body.name))?;
-                let format = read.format;
-                files.push(Some(read));
-                let what = format.description();
-                (format.dimension(), format!("{}, {what}", path.display()))
-            }
-            None => {
-                files.push(None);
-                (
-                    body.shape.dimension().unwrap_or(3),
-                    body.shape.name().to_owned(),
-                )
-            }
-        };
-        match &known {
-            Some((other, of)) if *other != dimension => {
-                return Err(fail(format!(
-                    "body \"{}\" is {dimension}-dimensional ({what}), {of} is {other}-dimensional; all must agree",
-                    body.name
-                )));
-            }
-            Some(_) => {}
-            None => known = Some((dimension, format!("body \"{}\"", body.name))),
-        }
-        let misfit = match dimension {
-            2 if body.rotate.is_some() => {
-                Some("write rotate_degrees = … instead of rotate".to_owned())
-            }
-            3 if body.rotate_degrees.is_some() => Some(
-                "write rotate = { axis = [0, 0, 1], degrees = … } instead of rotate_degrees"
-                    .to_owned(),
-            ),
-            _ => match &body.translate {
-                Some(shift) if shift.len() != dimension => Some(format!(
-                    "translate needs {dimension} entries, not {}",
-                    shift.len()
-                )),
-                _ => None,
-            },
-        };
-        if let Some(cure) = misfit {
-            return Err(fail(format!(
-                "body \"{}\" is {dimension}-dimensional; {cure}",
-                body.name
-            )));
-        }
-    }
-    let dimension = known.map_or(2, |(dimension, _)| dimension);
-    match &scene.domain.periodic {
-        Some(periodic) if periodic.len() != dimension => Err(fail(format!(
-            "domain.periodic has {} entries; it needs {dimension}, one for each axis",
-            periodic.len()
-        ))),
-        _ => Ok(Opened { dimension, files }),
-    }
 }
 
 fn four_digits(x: f64) -> f64 {
@@ -191,7 +117,6 @@ fn four_digits(x: f64) -> f64 {
 
 /// Builds the bodies and the problem, and sees whether it makes sense and fits into memory.
 pub(crate) fn prepare<const D: usize>(
-    scene: &Scene,
     opened: Opened,
     allowed_bytes: f64,
 ) -> Result<(Prepared<D>, Estimate), Error>
@@ -199,8 +124,10 @@ where
     Space<D>: Dimension<D>,
 {
     let begin = Instant::now();
+    let Opened { scene, files, .. } = opened;
+    let scene = &scene;
     let mut all = Vec::new();
-    for (body, file) in scene.body.iter().zip(opened.files) {
+    for (body, file) in scene.body.iter().zip(files) {
         let built = Space::<D>::place(body)
             .and_then(|place| Space::<D>::build(&body.shape, file.as_ref(), &place))
             .map_err(|source| match source {

@@ -6,6 +6,7 @@ use sphpack_packing::{
 };
 
 use crate::audit::Audit;
+use crate::auto::AutoReport;
 use crate::scene::Scene;
 
 /// The version of the report's keys.
@@ -61,6 +62,9 @@ pub struct Report {
     pub warnings: Vec<String>,
     /// Whether it is what it should be.
     pub audit: Audit,
+    /// With the method "auto", what was picked and whether it is as accurate as it was to be.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub auto: Option<AutoReport>,
     /// With corrected masses, what that came to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_correction: Option<MassReport>,

@@ -9,12 +9,14 @@ use std::time::Instant;
 use crate::Error;
 use crate::asked::Asked;
 use crate::audit::Audit;
+use crate::auto::AutoReport;
 use crate::body_file::ReadBody;
 use crate::dimension::{Dimension, Space, in_dimension};
 use crate::hydrostatic::AtRest;
 use crate::labels::{Sorted, sort};
 use crate::methods::pack;
-use crate::plan::{Opened, Prepared, available_bytes, judged, opened, prepare};
+use crate::opened::{Opened, opened};
+use crate::plan::{Prepared, available_bytes, judged, prepare};
 use crate::report::{
     BodyReport, Counts, MassReport, Report, ResolutionReport, SCHEMA, SecondsReport, finite,
     finite_surface, peak_memory_bytes,
@@ -26,6 +28,9 @@ use crate::{content, corrected};
 
 /// What particle files say in place of the reason why settling stopped, where the audit has found something.
 const UNSOUND: &str = "unsound";
+
+/// And where the scene's accuracy is not reached.
+const INACCURATE: &str = "inaccurate";
 
 /// What a run may use.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -58,22 +63,20 @@ pub fn run(
     options: &Options,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
-    run_opened(scene, opened(scene)?, options, observer)
+    run_opened(opened(scene)?, options, observer)
 }
 
 /// [`run`] of a scene whose bodies' files are read.
 pub(crate) fn run_opened(
-    scene: &Scene,
     opened: Opened,
     options: &Options,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
     let allowed = options.memory_bytes.unwrap_or_else(available_bytes);
-    in_dimension!(opened.dimension, D => run_in::<D>(scene, opened, allowed, observer))
+    in_dimension!(opened.dimension, D => run_in::<D>(opened, allowed, observer))
 }
 
 fn run_in<const D: usize>(
-    scene: &Scene,
     opened: Opened,
     allowed_bytes: f64,
     observer: &mut dyn Observer,
@@ -82,7 +85,8 @@ where
     Space<D>: Dimension<D>,
     Packing: From<Solution<D>>,
 {
-    let (prepared, _) = prepare::<D>(scene, opened, allowed_bytes)?;
+    let picked = opened.picked.clone();
+    let (prepared, _) = prepare::<D>(opened, allowed_bytes)?;
     let Prepared {
         problem,
         resolved,
@@ -118,9 +122,18 @@ where
     if !audit.passed && solution.packed.stop_reason == StopReason::Converged {
         table.stop_reason = UNSOUND.to_owned();
     }
+    let auto = picked.map(|picked| AutoReport::of(picked, scene, &solution));
+    if table.stop_reason == StopReason::Converged.name()
+        && auto
+            .as_ref()
+            .is_some_and(|auto| auto.reached == Some(false))
+    {
+        table.stop_reason = INACCURATE.to_owned();
+    }
     let mut report = report(scene, &solution, &volumes, audit, &table, built);
     report.seconds.measuring = measuring.elapsed().as_secs_f64();
     report.seconds.total += report.seconds.measuring;
+    report.auto = auto;
     report.mass_correction = masses.map(MassReport::from);
     report.warnings.splice(0..0, cut);
     for (body, repairs) in report.bodies.iter_mut().zip(repairs) {
@@ -374,6 +387,7 @@ fn report<const D: usize>(
             measuring: 0.0,
             output: 0.0,
         },
+        auto: None,
         mass_correction: None,
         peak_memory_bytes: peak_memory_bytes(),
         history: packed.history.clone(),

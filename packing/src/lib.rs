@@ -13,6 +13,7 @@ pub mod estimate;
 pub mod finest;
 mod finish;
 pub mod forces;
+pub mod interpolation;
 pub mod lattice;
 mod levelling;
 pub mod masses;
@@ -48,6 +49,7 @@ pub use curvature::Curved;
 pub use depths::Depths;
 pub use estimate::{Estimate, Work};
 pub use finest::Finest;
+pub use interpolation::Interpolation;
 pub use lattice::{Lattice, UnknownLattice};
 pub use masses::{MassCorrection, correct_masses};
 #[cfg(feature = "published")]

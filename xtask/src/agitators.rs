@@ -6,10 +6,10 @@ use std::fs;
 use sphpack::scene::{AgitatorsAre, Method as Named};
 use sphpack::{Options, run as pack};
 use sphpack_kernels::KernelKind;
-use sphpack_neighbors::Domain;
-use sphpack_packing::{Agitated, Agitators, Lattice, Method, Packed, Problem, RunLog, Silent};
+use sphpack_packing::{Agitated, Agitators, Lattice, Method, Packed, Silent};
 
 use crate::chart::{Axis, Chart, Scale, Series};
+use crate::reproduction::{REVOLUTION, Stirred};
 use crate::selection::Selection;
 use crate::shipped::load;
 use crate::workspace::root;
@@ -61,17 +61,10 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
     let mut curves = Vec::new();
     if selection.only.is_none() {
         for lattice in [Lattice::Hexagonal, Lattice::Square] {
-            let domain = Domain::new([0.0; 2], [1.0; 2]).with_periodic([true; 2]);
-            stirred(Problem::new(domain, 0.05), lattice, &mut text, &mut curves)?;
+            stirred::<2>(lattice, &mut text, &mut curves)?;
         }
         for lattice in [Lattice::Hcp, Lattice::SimpleCubic] {
-            let domain = Domain::new([0.0; 3], [0.4; 3]);
-            stirred(
-                Problem::new(domain, 0.1),
-                lattice,
-                &mut text,
-                &mut Vec::new(),
-            )?;
+            stirred::<3>(lattice, &mut text, &mut Vec::new())?;
         }
     }
     if selection.write {
@@ -132,13 +125,8 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
     Ok(text)
 }
 
-/// The paper's largest step in ∆s/√p_b, and how many make a revolution of the plane.
-const STEP: f64 = 0.0895;
-const REVOLUTION: usize = 2000;
-
 /// A lattice with each of the paper's forces and each agitator.
 fn stirred<const D: usize>(
-    mut problem: Problem<D>,
     lattice: Lattice,
     text: &mut String,
     curves: &mut Vec<Series>,
@@ -146,30 +134,18 @@ fn stirred<const D: usize>(
 where
     Agitated: Method<D>,
 {
-    problem.lattice = Some(lattice);
-    for (forces, repulsion) in [("ND", 0.0), ("ND + RF", 1.0 / 2000.0)] {
+    for (forces, is_repelled) in [("ND", false), ("ND + RF", true)] {
         for (words, agitators) in [
             ("turning", Agitators::Turning),
             ("resting", Agitators::Resting),
         ] {
-            let method = Agitated {
-                // Never met: the curves go on to the end.
-                density_tolerance: 0.0,
-                max_iterations: 25 * REVOLUTION,
-                damping: if D == 2 { 5e-4 } else { 5e-3 },
-                repulsion,
-                revolution: REVOLUTION as f64 * STEP,
-                largest_step: STEP,
+            let trial = Stirred {
+                lattice,
+                is_repelled,
                 agitators,
-                // Half of one: the curve of eq. 13 takes two.
-                steady_revolutions: if D == 2 { 0.5 } else { 0.25 },
-                // One for the whole box.
-                grid_over_spacing: 1000.0,
-                ..Agitated::default()
+                revolutions: 25,
             };
-            let packed: Packed<D> = method
-                .pack(&problem, &mut RunLog::new(&mut Silent))
-                .map_err(|error| error.to_string())?;
+            let packed: Packed<D> = trial.packed()?;
             let at = |iteration: usize| {
                 (packed.history.iter())
                     .find(|sample| sample.evaluation >= iteration)
@@ -178,7 +154,7 @@ where
             let while_it_runs = (packed.history.iter())
                 .filter(|sample| sample.evaluation <= REVOLUTION / 2)
                 .fold(0.0, |most: f64, sample| most.max(100.0 * sample.linf));
-            let start = 100.0 * (problem.perfect_gamma() - 1.0).abs();
+            let start = 100.0 * (packed.problem.perfect_gamma() - 1.0).abs();
             let line = format!(
                 "| {lattice} | {forces} | {words} | {start:.3} % | {while_it_runs:.3} % | {:.3} % | {:.3} % | {:.3} % |\n",
                 at(REVOLUTION / 2),

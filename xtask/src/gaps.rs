@@ -2,16 +2,10 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::PathBuf;
 
-use sphpack_geometry::{Outline, Surface};
-use sphpack_kernels::KernelKind;
-use sphpack_neighbors::{Domain, KdTree, point};
-use sphpack_packing::{
-    Complex, Fields, Method, Packed, Particles, Problem, Relaxation, RunLog, Silent,
-};
+use sphpack_packing::Particles;
 
-use crate::parsed::parsed;
+use crate::relaxed_airfoils::{Airfoil, Figures, SPACING, Way, airfoils, trailing_edge};
 use crate::selection::Selection;
 use crate::workspace::root;
 
@@ -41,57 +35,6 @@ greatest Γ |
 |---|---|---|---|---|---|---|---|
 ";
 
-const SPACING: f64 = 1.0 / 250.0;
-const TOLERANCE: f64 = 1e-4;
-const MOST_ITERATIONS: usize = 1500;
-
-/// How far from a trailing edge still is at it, in ∆s.
-const AT_EDGE: f64 = 6.0;
-
-/// Places per ∆s where holes are looked for.
-const FINENESS: f64 = 8.0;
-
-/// An airfoil: its elements, and the box around it.
-struct Airfoil {
-    name: &'static str,
-    elements: Vec<Outline>,
-    domain: Domain<2>,
-}
-
-fn airfoils(selection: &Selection) -> Result<Vec<Airfoil>, String> {
-    let around = |elements: Vec<Outline>, name| {
-        let bounds = (elements.iter().skip(1))
-            .fold(elements[0].bounds(), |all, one| all.union(one.bounds()))
-            // Half a cell off the grid of the first element.
-            .grown(20.5 * SPACING);
-        let domain = Domain::new(bounds.min, bounds.max);
-        Airfoil {
-            name,
-            elements,
-            domain,
-        }
-    };
-    let naca = Outline::naca("5515", 1.0).map_err(|error| error.to_string())?;
-    let mut all = vec![around(vec![naca], "NACA 5515")];
-    let folder = (selection.data.clone())
-        .unwrap_or_else(|| root().join("data"))
-        .join("30p30n");
-    let files = [
-        "airfoil_flap_front.dat",
-        "airfoil_wing.dat",
-        "airfoil_flap_rear.dat",
-    ];
-    let paths: Vec<PathBuf> = files.iter().map(|file| folder.join(file)).collect();
-    if paths.iter().all(|path| path.is_file()) {
-        let elements: Result<Vec<Outline>, _> = paths.iter().map(Outline::read).collect();
-        all.push(around(
-            elements.map_err(|error| error.to_string())?,
-            "30P30N",
-        ));
-    }
-    Ok(all)
-}
-
 /// The table; the picture where the page is written.
 pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
     let mut text = HEAD.to_owned();
@@ -99,47 +42,9 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
     let mut panels = Vec::new();
     let all = airfoils(selection)?;
     for airfoil in &all {
-        let error = |error: &dyn std::fmt::Display| format!("{}: {error}", airfoil.name);
-        let seen = |origin: &dyn Fn(&Outline) -> [f64; 2]| -> Result<Vec<Outline>, String> {
-            (airfoil.elements.iter())
-                .map(|one| parsed(one, SPACING, origin(one)).map_err(|e| error(&e)))
-                .collect()
-        };
-        let solid = seen(&|one| one.bounds().min)?;
-        let fluid = seen(&|_| airfoil.domain.bounds.min)?;
-        let relaxation = Relaxation {
-            residual_tolerance: TOLERANCE,
-            max_iterations: MOST_ITERATIONS,
-            ..Relaxation::default()
-        };
-        let apart = |bodies: &[Outline]| {
-            let packed = relaxation.pack(&problem(airfoil, bodies), &mut RunLog::new(&mut Silent));
-            packed.map_err(|e| error(&e))
-        };
-        let together = |bodies: &[Outline]| {
-            let complex = Complex {
-                relaxation,
-                ..Complex::default()
-            };
-            let packed = complex.pack(&problem(airfoil, bodies), &mut RunLog::new(&mut Silent));
-            packed.map_err(|e| error(&e))
-        };
-        let with = apart(&solid)?;
-        let rows: [(&str, &str, Particles<2>); 4] = [
-            ("its own grid", "separate", joined(&with, &apart(&fluid)?)),
-            ("the solid's outline", "separate", with.particles),
-            (
-                "the solid's outline",
-                "complex",
-                together(&solid)?.particles,
-            ),
-            (
-                "the exact outline",
-                "complex",
-                together(&airfoil.elements)?.particles,
-            ),
-        ];
-        for (boundary, method, particles) in rows {
+        for way in Way::ALL {
+            let particles = airfoil.relaxed(way)?;
+            let (boundary, method) = (way.boundary(), way.relaxation());
             let figures = Figures::of(airfoil, &particles);
             let line = format!(
                 "| {} | {boundary} | {method} | {:.2} | {:.2} | {:.3} | {:.3} | {:.3} |\n",
@@ -166,91 +71,6 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
             .map_err(|error| format!("{}: {error}", path.display()))?;
     }
     Ok(text)
-}
-
-fn problem(airfoil: &Airfoil, bodies: &[Outline]) -> Problem<2> {
-    let mut problem = Problem::new(airfoil.domain, SPACING);
-    for (number, body) in bodies.iter().enumerate() {
-        problem = problem.body(&format!("element {number}"), body.clone());
-    }
-    (problem.kernel, problem.h_over_spacing) = (KernelKind::WendlandC2, 1.3);
-    problem
-}
-
-/// The solids of one packing in the fluid of another.
-fn joined(solids: &Packed<2>, fluid: &Packed<2>) -> Particles<2> {
-    let mut all = Particles::new(fluid.particles.sizes.clone());
-    for (of, wants_solids) in [(&solids.particles, true), (&fluid.particles, false)] {
-        for i in (0..of.len()).filter(|&i| of.body[i].is_some() == wants_solids) {
-            all.push(of.position[i], of.kind[i], of.volume[i], of.body[i]);
-        }
-    }
-    all
-}
-
-/// Holes and sums within ∆s of the surface, and of these within [`AT_EDGE`] ∆s of a trailing edge.
-struct Figures {
-    hole: [f64; 2],
-    least: [f64; 2],
-    greatest: f64,
-}
-
-impl Figures {
-    fn of(airfoil: &Airfoil, particles: &Particles<2>) -> Self {
-        let step = SPACING / FINENESS;
-        let mut places: Vec<([f64; 2], bool)> = Vec::new();
-        let edges: Vec<[f64; 2]> = airfoil.elements.iter().map(trailing_edge).collect();
-        for element in &airfoil.elements {
-            let bounds = element.bounds().grown(SPACING);
-            let count = bounds.size().map(|size| (size / step) as usize);
-            for n in 0..count[0] * count[1] {
-                let p = [
-                    bounds.min[0] + step * (n % count[0]) as f64,
-                    bounds.min[1] + step * (n / count[0]) as f64,
-                ];
-                if element.closest_within(p, SPACING).is_some() {
-                    let is_near = |edge: &[f64; 2]| point::distance(p, *edge) < AT_EDGE * SPACING;
-                    places.push((p, edges.iter().any(is_near)));
-                }
-            }
-        }
-        let mut positions = particles.position.clone();
-        let mut volumes = particles.volume.clone();
-        positions.extend(places.iter().map(|(p, _)| *p));
-        volumes.resize(positions.len(), 0.0);
-        let first = particles.len();
-        let fields = Fields::measure(
-            &airfoil.domain,
-            &positions,
-            &volumes,
-            |i| i >= first,
-            KernelKind::Quintic,
-            1.2 * SPACING,
-        );
-        let tree = KdTree::new(&particles.position).ok();
-        let mut figures = Self {
-            hole: [0.0; 2],
-            least: [f64::INFINITY; 2],
-            greatest: 0.0,
-        };
-        for (k, (p, is_at_edge)) in places.iter().enumerate() {
-            let hit = tree.as_ref().and_then(|tree| tree.nearest(*p));
-            let hole = hit.map_or(f64::NAN, |hit| hit.distance / SPACING);
-            let gamma = fields.gamma[first + k];
-            for n in 0..=usize::from(*is_at_edge) {
-                figures.hole[n] = figures.hole[n].max(hole);
-                figures.least[n] = figures.least[n].min(gamma);
-            }
-            figures.greatest = figures.greatest.max(gamma);
-        }
-        figures
-    }
-}
-
-/// The rearmost point of an element.
-fn trailing_edge(element: &Outline) -> [f64; 2] {
-    let rearmost = element.points().iter().max_by(|a, b| a[0].total_cmp(&b[0]));
-    rearmost.copied().unwrap_or_default()
 }
 
 /// Half the width of a panel in ∆s, and pixels per ∆s.

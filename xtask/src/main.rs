@@ -3,6 +3,7 @@
 mod accelerations;
 mod agitators;
 mod arguments;
+mod axes;
 mod balanced;
 mod balanced_rows;
 mod bodies;
@@ -24,6 +25,7 @@ mod mangle;
 mod marks;
 mod parsed;
 mod power_law;
+mod relaxed_airfoils;
 mod reliability;
 mod reproduction;
 mod rest;

@@ -184,7 +184,8 @@ pub(crate) const TASKS: [Task; 20] = [
             "points.csv, pictures); goes on where it was stopped; --quick packs a few points of one scene,",
             "--data names the folder with bunny.stl, which is left out without,",
             "--one packs the scene in a file, as the chart has it done in a process of its own,",
-            "--write also writes docs/chart.md",
+            "--advice packs only what may be advised, and writes no page, --known packs nothing and takes what there is,",
+            "--write also writes docs/chart.md and the table that method = \"auto\" picks from, cli/accuracy.toml",
         ],
         read: |given| {
             let settings = front::Settings::of(given)?;

@@ -18,7 +18,7 @@ Examples:
   sphpack check body.stl                         is it closed, which way does it face, does it overlap itself?
   sphpack quality particles.csv --spacing 0.1    how even are anybody's particles?
 
-Exit status: 0 done and audited; 2 bad input; 3 not settled or not sound (files are written, the summary says what is wrong); 130 interrupted (files are written); 1 anything else."
+Exit status: 0 done and audited; 2 bad input; 3 not settled, not sound or not as accurate as asked (files are written, the summary says what is wrong); 130 interrupted (files are written); 1 anything else."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
@@ -84,7 +84,7 @@ pub(super) struct PackArguments {
     /// Factor on the body's lengths [default: 1]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     pub(super) scale: Option<f64>,
-    /// The method (`sphpack list methods`), instead of the scene's
+    /// The method (`sphpack list methods`), instead of the scene's; "auto" picks it and its settings
     #[arg(long, value_name = "NAME")]
     pub(super) method: Option<String>,
     /// The seed of random numbers, instead of the scene's

@@ -9,7 +9,7 @@ use super::arguments::What;
 use super::say;
 use crate::Error;
 use crate::error::DONE;
-use crate::scene::{Method, SHAPES};
+use crate::scene::{AccuracyMeasure, Method, SHAPES};
 
 pub(super) fn run(what: What) -> Result<u8, Error> {
     let mut text = String::new();
@@ -17,6 +17,20 @@ pub(super) fn run(what: What) -> Result<u8, Error> {
         What::Methods => {
             for info in Method::ALL.map(Method::info) {
                 let _ = writeln!(text, "{:12} {}", info.name, info.summary);
+            }
+            let _ = writeln!(
+                text,
+                "{:12} picks method and settings for accuracy = {{ MEASURE = NUMBER }}, the cheapest that kept it on the charted scenes; MEASURE is one of:",
+                Method::Auto.name()
+            );
+            for measure in AccuracyMeasure::ALL {
+                let _ = writeln!(
+                    text,
+                    "{:12}   {:14} {}",
+                    "",
+                    measure.name(),
+                    measure.words()
+                );
             }
         }
         What::Kernels => {

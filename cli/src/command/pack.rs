@@ -19,8 +19,9 @@ use super::{interrupt, memory_guard, outputs, say, summary, threads};
 use crate::Error;
 use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};
 use crate::files::{AtomicFiles, ParticleFormat, compare};
+use crate::opened::{Opened, opened};
 use crate::picture::{PictureFormat, Subject, draw};
-use crate::plan::{Opened, available_bytes, opened, planned_of};
+use crate::plan::{available_bytes, planned_of};
 use crate::report::peak_memory_bytes;
 use crate::run::{Options, Outcome, run_opened};
 use crate::scene::{Method, Scene};
@@ -34,16 +35,23 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let begin = Instant::now();
     let scene = scene(arguments)?;
     let opened = opened(&scene)?;
+    // Its settings picked: a checkpoint is of these.
+    let scene = opened.scene.clone();
     let files = Files::new(arguments, &scene, opened.dimension)?;
     threads::start(arguments.threads)?;
     if arguments.dry_run {
-        return dry_run(&scene, opened, arguments.quiet);
+        return dry_run(opened, arguments.quiet);
+    }
+    if let Some(picked) = opened.picked.as_ref().filter(|_| !arguments.quiet) {
+        for words in picked.words() {
+            let _ = writeln!(std::io::stderr(), "sphpack: {words}");
+        }
     }
     let keeping = Keeping::new(arguments, &scene, &files.particles[0].0)?;
     interrupt::watch(arguments.quiet)?;
     memory_guard::watch(available_bytes());
     let mut watcher = Watcher::new(arguments.quiet, keeping);
-    let outcome = run_opened(&scene, opened, &Options::default(), &mut watcher);
+    let outcome = run_opened(opened, &Options::default(), &mut watcher);
     let keeping = watcher.end();
     // Methods that move nothing have something to write too.
     interrupt::has_begun();
@@ -62,7 +70,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     }
     keeping.end(stop_reason(&outcome) == StopReason::Interrupted);
     let status = match stop_reason(&outcome) {
-        StopReason::Converged if outcome.report.audit.passed => DONE,
+        StopReason::Converged if outcome.report.audit.passed && is_accurate(&outcome) => DONE,
         StopReason::Interrupted => INTERRUPTED,
         _ => NOT_CONVERGED,
     };
@@ -85,6 +93,11 @@ fn warn(body: &str, repairs: &[String]) {
             visible(&format!("sphpack: warning: body \"{body}\": {words}"))
         );
     }
+}
+
+/// Whether nothing else was asked for.
+fn is_accurate(outcome: &Outcome) -> bool {
+    (outcome.report.auto.as_ref()).is_none_or(|auto| auto.reached != Some(false))
 }
 
 fn stop_reason(outcome: &Outcome) -> StopReason {
@@ -152,8 +165,8 @@ fn positive(name: &str, value: f64) -> Result<(), Error> {
     )))
 }
 
-fn dry_run(scene: &Scene, opened: Opened, is_quiet: bool) -> Result<u8, Error> {
-    let plan = planned_of(scene, opened, available_bytes())?;
+fn dry_run(opened: Opened, is_quiet: bool) -> Result<u8, Error> {
+    let plan = planned_of(opened, available_bytes())?;
     if !is_quiet {
         for (body, repairs) in &plan.repairs {
             warn(body, repairs);
@@ -163,7 +176,7 @@ fn dry_run(scene: &Scene, opened: Opened, is_quiet: bool) -> Result<u8, Error> {
         }
     }
     let estimate = plan.estimate;
-    let evaluations = scene.typical_evaluations();
+    let evaluations = plan.evaluations;
     let pace = Pace::measured(&estimate);
     let each = estimate.seconds_of_one(pace);
     let work = estimate.seconds(pace, evaluations);
@@ -172,8 +185,9 @@ fn dry_run(scene: &Scene, opened: Opened, is_quiet: bool) -> Result<u8, Error> {
     let fewer = plan.times_fewer.map_or_else(String::new, |times| {
         format!("             {times:.1} times fewer than at the finest spacing everywhere\n")
     });
+    let picked = (plan.picked.as_ref()).map_or_else(String::new, summary::picked);
     say(&format!(
-        "{read}  particles  {} in the {}-D box, about {} frozen around it\n{fewer}  neighbors  about {:.0} for each particle\n  memory     about {} of {} that are free\n  time       about {} on {} threads, {evaluations} evaluations of what moves among it, each about {}; to a factor of two\nnothing was written (--dry-run)\n",
+        "{read}{picked}  particles  {} in the {}-D box, about {} frozen around it\n{fewer}  neighbors  about {:.0} for each particle\n  memory     about {} of {} that are free\n  time       about {} on {} threads, {evaluations} evaluations of what moves among it, each about {}; to a factor of two\nnothing was written (--dry-run)\n",
         crate::picture::grouped(estimate.particles as usize),
         plan.dimension,
         crate::picture::grouped(estimate.frozen as usize),

@@ -6,6 +6,7 @@ use sphpack_packing::Problem;
 
 use super::duration::duration;
 use crate::ReadBody;
+use crate::auto::{AutoReport, Picked};
 use crate::picture::grouped;
 use crate::report::Report;
 use crate::run::Outcome;
@@ -29,6 +30,9 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
         );
     }
     let counts = &report.particles;
+    if let Some(auto) = &report.auto {
+        text.push_str(&picked(&auto.picked));
+    }
     line(
         &mut text,
         "seeding",
@@ -87,6 +91,9 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
     if let Some(words) = unfinished(report) {
         line(&mut text, "unfinished", &words, None);
     }
+    if let Some(words) = report.auto.as_ref().and_then(AutoReport::words) {
+        line(&mut text, "accuracy", &words, None);
+    }
     for (number, words) in audit(report).iter().enumerate() {
         line(
             &mut text,
@@ -101,6 +108,16 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
         &written.join(", "),
         Some(duration(report.seconds.output)),
     );
+    text
+}
+
+/// What the method "auto" takes, a line each.
+pub(super) fn picked(picked: &Picked) -> String {
+    let mut text = String::new();
+    for (number, words) in picked.words().iter().enumerate() {
+        let stage = if number == 0 { "method" } else { "" };
+        line(&mut text, stage, words, None);
+    }
     text
 }
 
@@ -209,10 +226,20 @@ fn audit(report: &Report) -> Vec<String> {
 
 /// Why a packing is not done, for those who want no more words.
 pub(super) fn in_a_line(report: &Report) -> String {
-    match (unfinished(report), report.audit.messages.first()) {
-        (Some(words), _) => words,
-        (None, Some(words)) => format!("not sound: {words}; the files are written, and marked"),
-        (None, None) => "done".to_owned(),
+    let inaccurate = (report.auto.as_ref()).and_then(|auto| auto.message.as_ref());
+    match (
+        unfinished(report),
+        report.audit.messages.first(),
+        inaccurate,
+    ) {
+        (Some(words), ..) => words,
+        (None, Some(words), _) => {
+            format!("not sound: {words}; the files are written, and marked")
+        }
+        (None, None, Some(words)) => {
+            format!("not as accurate as asked: {words}; the files are written, and marked")
+        }
+        (None, None, None) => "done".to_owned(),
     }
 }
 

@@ -29,7 +29,7 @@ impl Scene {
         for (index, body) in self.body.iter().enumerate() {
             check_body(body, index)?;
             if body.thin == Thin::Watertight
-                && (self.packing.method != Method::Balanced || body.role != Role::Solid)
+                && (!self.packing.method.may_be_balanced() || body.role != Role::Solid)
             {
                 return fault(
                     &[Key::Name("body"), Key::Index(index), Key::Name("thin")],
@@ -289,6 +289,21 @@ impl Scene {
                 ),
             );
         }
+        match &packing.accuracy {
+            Some(accuracy) if packing.method == Method::Auto => {
+                accuracy.check(self.refinement.is_some())?;
+            }
+            Some(_) => {
+                return fault(
+                    &at("accuracy"),
+                    format!(
+                        "packing.accuracy is what method = \"auto\" picks settings by, and the method is \"{}\": use method = \"auto\", or leave accuracy out",
+                        packing.method.name()
+                    ),
+                );
+            }
+            None => {}
+        }
         let is_hybrid = packing.method == Method::Hybrid;
         let minimises = info.minimises || (is_hybrid && packing.minimiser.is_some());
         let of_balanced = match packing.finish {
@@ -296,7 +311,7 @@ impl Scene {
             Finish::Calm => Some("calm"),
             Finish::Both => Some("both"),
         };
-        if let (Some(finish), true) = (of_balanced, packing.method != Method::Balanced) {
+        if let (Some(finish), false) = (of_balanced, packing.method.may_be_balanced()) {
             return fault(
                 &at("finish"),
                 format!(

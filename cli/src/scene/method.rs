@@ -36,10 +36,12 @@ pub enum Method {
     Clipped,
     /// Bodies cut into triangles (Negi & Ramachandran preprint, §3).
     Triangulated,
+    /// What the chart of speed against accuracy has for the scene's `accuracy`: settings are picked before anything is packed.
+    Auto,
 }
 
 impl Method {
-    /// Every method, the default first.
+    /// Every method that packs, the default first.
     pub const ALL: [Self; 10] = [
         Self::Balanced,
         Self::Hybrid,
@@ -53,10 +55,10 @@ impl Method {
         Self::Triangulated,
     ];
 
-    /// What it costs, moves and promises.
+    /// What it costs, moves and promises; of "auto", what the default does, until settings are picked.
     pub fn info(self) -> &'static MethodInfo {
         match self {
-            Self::Balanced => &Balanced::INFO,
+            Self::Balanced | Self::Auto => &Balanced::INFO,
             Self::Hybrid => &Hybrid::INFO,
             Self::Standard => &Standard::INFO,
             Self::Coupled => &Coupled::INFO,
@@ -71,9 +73,20 @@ impl Method {
 
     /// The name that scenes and reports use.
     pub fn name(self) -> &'static str {
-        self.info().name
+        match self {
+            Self::Auto => AUTO,
+            packs => packs.info().name,
+        }
+    }
+
+    /// Whether a scene may have what only the method balanced has: that is what is picked for "auto".
+    pub(crate) fn may_be_balanced(self) -> bool {
+        matches!(self, Self::Balanced | Self::Auto)
     }
 }
+
+/// The name of the method that picks.
+const AUTO: &str = "auto";
 
 /// A method's name that is none.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,7 +97,8 @@ pub struct UnknownMethod(
 
 impl fmt::Display for UnknownMethod {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let known = Method::ALL.map(Method::name);
+        let known = Method::ALL.into_iter().chain([Method::Auto]);
+        let known: Vec<&str> = known.map(Method::name).collect();
         let advice = advice(&self.0, &known);
         write!(f, "no method is called \"{}\"; {advice}", self.0)
     }
@@ -96,8 +110,8 @@ impl FromStr for Method {
     type Err = UnknownMethod;
 
     fn from_str(name: &str) -> Result<Self, UnknownMethod> {
-        Self::ALL
-            .into_iter()
+        (Self::ALL.into_iter())
+            .chain([Self::Auto])
             .find(|method| method.name() == name)
             .ok_or_else(|| UnknownMethod(name.to_owned()))
     }

@@ -1,9 +1,11 @@
 //! Scenes: what a person writes down to be packed.
 
+mod accuracy;
 mod check;
 mod check_body;
 mod fault;
 mod fluid;
+mod given;
 mod method;
 mod named;
 mod nearest;
@@ -22,8 +24,10 @@ use sphpack_geometry::Thin;
 use sphpack_kernels::KernelKind;
 use sphpack_packing::{Band, Complex, Hybrid, Kind, Lattice, MinimiserKind, Settling};
 
+pub use accuracy::{Accuracy, AccuracyMeasure};
 pub use fault::Fault;
 pub use fluid::{FluidSpec, Hydrostatic};
+pub use given::Given;
 pub use method::{Method, UnknownMethod};
 pub use named::Inset;
 pub(crate) use named::kernel_by_name;
@@ -207,6 +211,9 @@ pub enum Frozen {
 pub struct PackingSpec {
     /// The method.
     pub method: Method,
+    /// What the method "auto" is to reach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
     /// The kernel that packs; `None` is the method's own ([`Method::info`]).
     #[serde(
         with = "named::optional_kernel",
@@ -252,6 +259,9 @@ pub struct PackingSpec {
     pub hybrid: HybridOptions,
     /// Of the method agitated.
     pub agitated: AgitatedOptions,
+    /// Which of these keys a scene's file has.
+    #[serde(skip)]
+    pub given: Given,
 }
 
 /// The levelling of an even finish whose masses are corrected, unless the scene says otherwise: where masses are to
@@ -332,6 +342,7 @@ impl Default for PackingSpec {
         let hybrid = Hybrid::default();
         Self {
             method: Method::default(),
+            accuracy: None,
             kernel: None,
             h_over_spacing: None,
             lattice: None,
@@ -349,6 +360,7 @@ impl Default for PackingSpec {
             seed: 0,
             hybrid: HybridOptions::default(),
             agitated: AgitatedOptions::default(),
+            given: Given::default(),
         }
     }
 }

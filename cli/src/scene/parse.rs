@@ -5,10 +5,10 @@ use std::path::Path;
 
 use toml::de::{DeTable, DeValue};
 
-use super::Scene;
 use super::check::{MAX_BODIES, too_many_bodies};
 use super::fault::{Fault, Key};
 use super::nearest::advice;
+use super::{Given, Scene};
 use crate::Error;
 
 /// The largest scene, bytes; one of a person has some thousand.
@@ -63,6 +63,7 @@ impl Scene {
             |stem| stem.to_string_lossy().into_owned(),
         );
         scene.name_bodies();
+        scene.packing.given = Given::new(packing_keys(text));
         match scene.check() {
             Ok(()) => Ok(scene),
             Err(Fault { keys, message }) => Err(fail(locate(text, &keys), message)),
@@ -78,6 +79,16 @@ impl Scene {
                 };
             }
         }
+    }
+}
+
+/// The keys in `[packing]`.
+fn packing_keys(text: &str) -> Vec<String> {
+    let table = DeTable::parse(text).ok();
+    let packing = (table.as_ref()).and_then(|table| table.get_ref().get("packing"));
+    match packing.map(|packing| packing.get_ref()) {
+        Some(DeValue::Table(keys)) => keys.keys().map(|key| key.get_ref().to_string()).collect(),
+        _ => Vec::new(),
     }
 }
 

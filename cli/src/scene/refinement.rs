@@ -7,7 +7,7 @@ use sphpack_geometry::Thin;
 
 use super::check_body::check_shape;
 use super::fault::{Checked, Key, fault, positive};
-use super::{BodySpec, Finish, Frozen, Masses, Method, Scene, Shape};
+use super::{BodySpec, Finish, Frozen, Masses, Scene, Shape};
 
 /// Particles that grow with the distance from surfaces and regions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -227,7 +227,7 @@ impl Scene {
     fn check_graded_packing(&self) -> Checked {
         let packing = &self.packing;
         let at = |name| [Key::Name("packing"), Key::Name(name)];
-        if packing.method != Method::Balanced {
+        if !packing.method.may_be_balanced() {
             return fault(
                 &at("method"),
                 format!(

@@ -51,7 +51,9 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
                                  # columns of pressure and density of the fluid at rest below that level, masses too
 
 [packing]
-# method = "balanced"            # `sphpack list methods`
+# method = "balanced"            # `sphpack list methods`; "auto" picks it and its settings by
+# accuracy = { linf = 0.002 }    # method = "auto": what to reach (no default); linf: largest |density - 1| | residual: net
+                                 # force times h | interpolation, derivative: of a function, part of error beyond a lattice's
 # kernel = "quintic"             # `sphpack list kernels`
 # h_over_spacing = 1.2           # smoothing length over spacing
 # lattice = "auto"               # the start: `sphpack list lattices`; of least density, or the method's own

@@ -154,6 +154,8 @@ fn the_template_packs_and_knows_every_key() {
                 "# margin",
                 "# shape",
                 "# rotate =",
+                // Goes with the method "auto".
+                "# accuracy",
                 "# Pack",
                 "# Keys",
                 "# Other",

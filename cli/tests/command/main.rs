@@ -1,5 +1,6 @@
 //! The command as a person runs it: what it writes, what it refuses, and how it ends.
 
+mod accuracy;
 mod bad_bodies;
 mod bad_outputs;
 mod bad_scenes;

@@ -1,8 +1,8 @@
 //! Which method and settings to take when: picked from what was measured, by a rule.
 
+use super::choices::{Choice, cheapest, choices};
 use super::errors::Error;
-use super::figures::Figures;
-use super::points::{DEFAULT, Factor, Point};
+use super::points::{DEFAULT, Factor};
 use super::sheet::Sheet;
 use super::table::Table;
 
@@ -16,38 +16,36 @@ const GOALS: [(Error, &[f64]); 4] = [
 
 /// The rule, in words.
 pub(super) const RULE: &str = "\
-For each error that may be asked for: of the settings that keep it on every scene those that take least time, as the\n\
-geometric mean over the scenes of the time over the default's. In brackets are that mean and the largest error of the\n\
-scenes. Beside it, the quickest settings on each scene alone, with their time over the default's.";
-
-/// What a choice comes to.
-#[derive(Debug, Clone, PartialEq)]
-struct Choice {
-    name: String,
-    /// Of the default's time.
-    times: f64,
-    /// The largest of the scenes.
-    error: f64,
-}
+For each error that may be asked for: of the settings that keep it on every scene those that go over the fewest pairs, as the\n\
+geometric mean over the scenes of the pairs over the default's. In brackets are that mean and the largest error of the\n\
+scenes. Beside it, the cheapest settings on each scene alone, with their pairs over the default's. Methods of papers, the finish\n\
+*calm* and what has not come to rest are not advised. `method = \"auto\"` with `accuracy = …` in a scene picks by the same rule,\n\
+from `cli/accuracy.toml`; `linf` is a part there, not per cent, as are `interpolation` and `derivative`.";
 
 /// The table of goals.
 pub(super) fn table(sheets: &[Sheet]) -> Table {
-    let mut table = Table::new(&["error", "at most", "take"]);
+    let mut table = Table::new(&["error", "at most", "take in the plane", "take in space"]);
     (table.head).extend(sheets.iter().map(|sheet| sheet.place.scene.to_owned()));
     for (error, goals) in GOALS {
+        let of_dimension = |dimension: usize| {
+            let own: Vec<&Sheet> = (sheets.iter())
+                .filter(|sheet| sheet.place.dimension == dimension)
+                .collect();
+            choices(&own, error)
+        };
+        let together = [2, 3].map(of_dimension);
+        let alone: Vec<Vec<Choice>> = (sheets.iter())
+            .map(|sheet| choices(&[sheet], error))
+            .collect();
         for &goal in goals {
-            let said = match all(sheets, error, goal) {
-                Some(Choice { name, times, error }) => {
-                    format!("{name} ({times:.2} ×, {})", short(error))
-                }
-                None => "nothing charted".to_owned(),
-            };
-            let mut row = vec![error.title().to_owned(), short(goal), said];
-            row.extend(sheets.iter().map(|sheet| {
-                match all(std::slice::from_ref(sheet), error, goal) {
-                    Some(Choice { name, times, .. }) => format!("{name} ({times:.2} ×)"),
-                    None => "–".to_owned(),
-                }
+            let mut row = vec![error.title().to_owned(), short(goal)];
+            row.extend(together.iter().map(|front| match cheapest(front, goal) {
+                Some(choice) => said(choice),
+                None => NOTHING.to_owned(),
+            }));
+            row.extend(alone.iter().map(|front| match cheapest(front, goal) {
+                Some(Choice { name, cost, .. }) => format!("{name} ({cost:.2} ×)"),
+                None => "–".to_owned(),
             }));
             table.rows.push(row);
         }
@@ -55,41 +53,15 @@ pub(super) fn table(sheets: &[Sheet]) -> Table {
     table
 }
 
-/// The quickest settings that keep a goal on all of these scenes.
-fn all(sheets: &[Sheet], error: Error, goal: f64) -> Option<Choice> {
-    let (first, others) = sheets.split_first()?;
-    (first.rivals())
-        .filter_map(|(point, figures, is_candidate)| {
-            let mut choice = judged(first, point, figures, is_candidate, error)?;
-            for sheet in others {
-                let (other, figures, is_candidate) = sheet
-                    .rivals()
-                    .find(|(other, ..)| other.name == point.name)?;
-                let there = judged(sheet, other, figures, is_candidate, error)?;
-                choice.times *= there.times;
-                choice.error = choice.error.max(there.error);
-            }
-            choice.times = choice.times.powf(1.0 / sheets.len() as f64);
-            Some(choice)
-        })
-        .filter(|choice| choice.error <= goal)
-        .min_by(|a, b| a.times.total_cmp(&b.times))
-}
+/// In a cell, where no settings keep a goal.
+const NOTHING: &str = "nothing charted";
 
-fn judged(
-    sheet: &Sheet,
-    point: &Point,
-    figures: &Figures,
-    is_candidate: bool,
-    error: Error,
-) -> Option<Choice> {
-    let default = sheet.default()?;
-    let error = error.of(figures).filter(|_| is_candidate)?;
-    Some(Choice {
-        name: point.name.clone(),
-        times: figures.seconds / default.seconds,
-        error,
-    })
+/// A choice in a cell.
+fn said(choice: &Choice) -> String {
+    let Choice {
+        name, cost, error, ..
+    } = choice;
+    format!("{name} ({cost:.2} ×, {})", short(*error))
 }
 
 /// A number in a cell.
@@ -126,7 +98,41 @@ pub(super) fn beaten(sheets: &[Sheet]) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
+    use crate::workspace::root;
+
+    /// What the command picks is what docs/chart.md advises.
+    #[test]
+    fn the_page_and_the_shipped_table_agree() {
+        let page = fs::read_to_string(root().join("docs/chart.md")).unwrap();
+        let shipped = sphpack::auto::choices().unwrap();
+        let cell = |dimension: usize, error: Error, goal: f64| {
+            let front: Vec<Choice> = (shipped.iter())
+                .filter(|line| line.dimension == dimension && line.measure.name() == error.key())
+                .map(|line| Choice {
+                    name: line.name.clone(),
+                    settings: line.settings.clone(),
+                    cost: line.cost,
+                    error: error.unit() * line.accuracy,
+                })
+                .collect();
+            cheapest(&front, goal).map_or_else(|| NOTHING.to_owned(), said)
+        };
+        for (error, goals) in GOALS {
+            for &goal in goals {
+                let row = format!(
+                    "| {} | {} | {} | {} |",
+                    error.title().replace('|', "\\|"),
+                    short(goal),
+                    cell(2, error, goal),
+                    cell(3, error, goal)
+                );
+                assert!(page.contains(&row), "docs/chart.md lacks {row}");
+            }
+        }
+    }
 
     #[test]
     fn numbers_are_short() {

@@ -16,12 +16,34 @@ pub(super) enum Error {
 }
 
 impl Error {
+    /// All, in the order of tables.
+    pub(super) const ALL: [Self; 4] =
+        [Self::Linf, Self::Residual, Self::Function, Self::Derivative];
+
+    /// As a scene's `accuracy` calls it.
+    pub(super) fn key(self) -> &'static str {
+        match self {
+            Self::Linf => "linf",
+            Self::Residual => "residual",
+            Self::Function => "interpolation",
+            Self::Derivative => "derivative",
+        }
+    }
+
+    /// How many units of its title are 1: all but residuals are in per cent.
+    pub(super) fn unit(self) -> f64 {
+        match self {
+            Self::Residual => 1.0,
+            _ => 100.0,
+        }
+    }
+
     /// On axes and in tables.
     pub(super) fn title(self) -> &'static str {
         match self {
             Self::Linf => "largest error of the density |Γ − 1|, %",
             Self::Residual => "largest residual h|∇Γ|",
-            Self::Function => "L2 of sin(r²), off the lattice's by, %",
+            Self::Function => "L2 of a wave, off the lattice's by, %",
             Self::Derivative => "L2 of its derivative, off the lattice's by, %",
         }
     }

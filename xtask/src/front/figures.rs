@@ -9,6 +9,8 @@ pub(super) struct Figures {
     pub(super) particles: f64,
     /// Of density and force.
     pub(super) evaluations: f64,
+    /// That all sums went over, about ([`pairs`](super::pairs::pairs)).
+    pub(super) pairs: f64,
     /// Wall clock, from scene to figures, the quickest of some repeats.
     pub(super) seconds: f64,
     /// Of all threads together, of that same repeat.
@@ -19,7 +21,8 @@ pub(super) struct Figures {
     pub(super) linf: f64,
     /// Largest h |∇Γ| of a free particle.
     pub(super) residual: f64,
-    /// L2 of f = sin(r²) interpolated off the sites, over the lattice's own; of small packings alone.
+    /// L2 of a wave interpolated off the sites, over the lattice's own ([`Packed::interpolation`](sphpack_packing::Packed::interpolation));
+    /// of small packings alone.
     pub(super) function: Option<f64>,
     /// The same of its derivative.
     pub(super) derivative: Option<f64>,

@@ -1,6 +1,7 @@
 //! Speed charted against accuracy: every method, and one setting of the default at a time.
 
 mod advice;
+mod choices;
 mod errors;
 mod figures;
 mod judged;
@@ -9,13 +10,16 @@ mod labels;
 mod one;
 mod packings;
 mod page;
+mod pairs;
 mod panel;
 mod pareto;
 mod points;
 mod shapes;
 mod sheet;
+mod shipped_table;
 mod table;
 
+use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -31,6 +35,10 @@ use sheet::Sheet;
 #[derive(Debug, Default)]
 pub(crate) struct Settings {
     selection: Selection,
+    /// Only what may be advised, and nothing but the advice and the shipped table.
+    advice: bool,
+    /// Pack nothing: of what was packed before.
+    known: bool,
     /// Pack the scene of this file alone, as the chart has its children do; the result goes beside it.
     one: Option<PathBuf>,
 }
@@ -42,12 +50,16 @@ impl Settings {
         "--only SCENE",
         "--data DIR",
         "--write",
+        "--advice",
+        "--known",
         "--one FILE",
     ];
 
     pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
         Ok(Self {
             selection: Selection::of(arguments)?,
+            advice: arguments.has("--advice"),
+            known: arguments.has("--known"),
             one: arguments.path("--one"),
         })
     }
@@ -59,6 +71,8 @@ impl Settings {
                 quick: true,
                 ..Selection::default()
             },
+            advice: false,
+            known: false,
             one: None,
         }
     }
@@ -75,7 +89,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let packings = Packings::open(&folder.join("packings"))?;
     let mut asked: Vec<(Place, Vec<Point>)> = Vec::new();
     for place in places(selection) {
-        let points = points(place, selection)?;
+        let mut points = points(place, selection)?;
+        if settings.advice {
+            points.retain(choices::may_be_asked);
+        }
         if !points.is_empty() {
             asked.push((place, points));
         }
@@ -96,6 +113,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         for point in points {
             done += 1;
             let was_known = packings.known(&point.scene).is_some();
+            if !was_known && settings.known {
+                continue;
+            }
             if !was_known {
                 eprintln!(
                     "── {done} of {total}: {}, {}, after {:.0} s",
@@ -112,12 +132,26 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         sheets.push(sheet);
         // After each scene: whoever stops here has what there is.
         let missing = &names[sheets.len()..];
+        if settings.advice {
+            continue;
+        }
         page::write(&folder, &sheets, missing)?;
         if selection.write {
             page::document(&root().join("docs"), &sheets, missing)?;
         }
     }
-    eprintln!("── {}", folder.join("index.html").display());
+    if !settings.advice {
+        eprintln!("── {}", folder.join("index.html").display());
+    }
+    if selection.write && settings.advice {
+        page::advise(&root().join("docs"), &sheets)?;
+    }
+    // Of some scenes alone it would promise what the others do not keep.
+    if selection.write && selection.only.is_none() && !selection.quick {
+        let path = root().join(shipped_table::FILE);
+        fs::write(&path, shipped_table::text(&sheets))
+            .map_err(|error| format!("{}: {error}", path.display()))?;
+    }
     print!("{}", advice::table(&sheets).markdown());
     let beaten = advice::beaten(&sheets);
     if beaten.is_empty() {

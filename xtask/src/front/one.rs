@@ -4,12 +4,12 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-use sphpack::{Options, Outcome, Packing, Scene, run as pack};
-use sphpack_packing::{Packed, Silent};
+use sphpack::{Options, Outcome, Packing, Scene, Solution, run as pack};
+use sphpack_packing::Silent;
 
 use super::figures::{Ended, Figures};
 use super::judges::{DENSITY, judges};
-use crate::reproduction::study;
+use super::pairs::pairs;
 use crate::scene_fuzz::processor_seconds;
 
 /// Short packings are repeated for so long: a few milliseconds are easily disturbed.
@@ -69,8 +69,8 @@ fn measured(scene: &Scene) -> Result<Figures, String> {
         return Err("nothing was packed".to_owned());
     };
     let figures = match &outcome.packing {
-        Packing::Plane(solution) => figures(&solution.packed, &outcome),
-        Packing::Space(solution) => figures(&solution.packed, &outcome),
+        Packing::Plane(solution) => figures(solution, &outcome),
+        Packing::Space(solution) => figures(solution, &outcome),
     };
     Ok(Figures {
         seconds,
@@ -79,8 +79,8 @@ fn measured(scene: &Scene) -> Result<Figures, String> {
     })
 }
 
-fn figures<const D: usize>(packed: &Packed<D>, outcome: &Outcome) -> Figures {
-    let report = &outcome.report;
+fn figures<const D: usize>(solution: &Solution<D>, outcome: &Outcome) -> Figures {
+    let (packed, report) = (&solution.packed, &outcome.report);
     let by = |(kernel, h)| packed.quality_by(&packed.fields(kernel, h));
     let own = by(DENSITY);
     let judged = (judges(D).iter())
@@ -89,8 +89,9 @@ fn figures<const D: usize>(packed: &Packed<D>, outcome: &Outcome) -> Figures {
         .collect();
     let count = &report.particles;
     let particles = (count.total - count.frozen) as f64;
-    let study =
-        (particles <= MOST_THAT_INTERPOLATE).then(|| study(packed, DENSITY.0, DENSITY.1).off_sites);
+    let interpolation = Some(packed)
+        .filter(|_| particles <= MOST_THAT_INTERPOLATE)
+        .and_then(|packed| packed.interpolation(DENSITY.0, DENSITY.1));
     let finite = |value: f64| Some(value).filter(|value| value.is_finite());
     let (on, target) = (report.surface.iter()).fold((0, 0), |(on, target), surface| {
         (on + surface.count, target + surface.target_count)
@@ -98,13 +99,14 @@ fn figures<const D: usize>(packed: &Packed<D>, outcome: &Outcome) -> Figures {
     Figures {
         particles,
         evaluations: report.force_evaluations as f64,
+        pairs: pairs(solution, report),
         seconds: 0.0,
         processor_seconds: 0.0,
         peak_memory_bytes: report.peak_memory_bytes as f64,
         linf: own.density.linf,
         residual: own.residual.max,
-        function: study.and_then(|errors| finite(errors.function)),
-        derivative: study.and_then(|errors| finite(errors.derivative)),
+        function: interpolation.and_then(|found| finite(found.function.over_lattice)),
+        derivative: interpolation.and_then(|found| finite(found.derivative.over_lattice)),
         closest_pair: report.closest_pair_over_spacing,
         on_surface: on as f64 / target.max(1) as f64,
         stop_reason: report.stop_reason.to_owned(),

@@ -16,10 +16,10 @@ const MOST_SECONDS: f64 = 120.0;
 
 /// What a packing's figures depend on, beside what packs.
 const OWN: [&str; 4] = [
-    "xtask/src/reproduction/interpolation.rs",
     "xtask/src/front/figures.rs",
     "xtask/src/front/judges.rs",
     "xtask/src/front/one.rs",
+    "xtask/src/front/pairs.rs",
 ];
 
 /// Measured packings in a folder, each with its scene.

@@ -70,6 +70,24 @@ pub(super) fn document(folder: &Path, sheets: &[Sheet], missing: &[&str]) -> Res
     put(&folder.join("chart.md"), &format!("{}\n", page.trim_end()))
 }
 
+/// The advice of [`document`], in its place in the folder of the docs.
+pub(super) fn advise(folder: &Path, sheets: &[Sheet]) -> Result<(), String> {
+    let path = folder.join("chart.md");
+    let page = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let heading = format!("## {ADVICE}\n");
+    let cut = page.split_once(heading.as_str());
+    let (before, rest) = cut.ok_or_else(|| format!("{} has no \"{ADVICE}\"", path.display()))?;
+    let after = rest.find("\n## ").map_or("", |at| &rest[at..]);
+    let table = advice::table(sheets).markdown();
+    put(
+        &path,
+        &format!("{before}{heading}\n{}\n\n{table}{after}", advice::RULE),
+    )
+}
+
+/// The heading of the advice.
+const ADVICE: &str = "Which method and settings to take when";
+
 fn put(path: &Path, text: &str) -> Result<(), String> {
     fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
@@ -108,7 +126,7 @@ fn parts<'a>(sheets: &'a [Sheet], missing: &[&str]) -> Vec<Part<'a>> {
         )));
     }
     parts.extend([
-        Part::Heading(2, "Which method and settings to take when".to_owned()),
+        Part::Heading(2, ADVICE.to_owned()),
         Part::Text(advice::RULE.to_owned()),
         Part::Table(advice::table(sheets)),
     ]);
@@ -165,8 +183,10 @@ fn about() -> String {
          stop after 2,000 iterations. On the fronts is what nothing else beats in both figures, among packings that have at least\n\
          nine tenths of N_s on the surface and no pair nearer than ∆s/2: a clipped lattice is as even as any lattice, and is\n\
          not the body. \"masses ±1 %\" has masses corrected by so much at most; \"κ\" is `levelling`, \"tolerance\"\n\
-         `residual_tolerance`, \"evaluations\" `max_iterations`, a kernel's number its h/∆s. Errors of the interpolated sin(r²)\n\
-         and of its derivative are apart from those of the packing's own lattice, undisturbed, by so much.",
+         `residual_tolerance`, \"evaluations\" `max_iterations`, a kernel's number its h/∆s. Pairs are those that all\n\
+         sums go over, about: whatever the machine. Errors of an interpolated wave and of its derivative (sin(r²/u²), r from the\n\
+         middle of the box and u a quarter of its longest edge) are apart from those of the packing's own lattice, undisturbed, by\n\
+         so much.",
         judges::name(judges::DENSITY)
     )
 }
@@ -210,7 +230,7 @@ fn fronts(sheet: &Sheet) -> Table {
 
 /// Every point of every scene.
 fn csv(sheets: &[Sheet]) -> String {
-    let mut text = "scene,spacing,factor,name,particles,evaluations,seconds,processor_seconds,peak_memory_bytes,linf,residual,\
+    let mut text = "scene,spacing,factor,name,particles,evaluations,pairs,seconds,processor_seconds,peak_memory_bytes,linf,residual,\
                     function_over_lattice,derivative_over_lattice,closest_pair_over_spacing,on_surface_over_target,stop_reason,judged_by,judged_linf\n"
         .to_owned();
     for sheet in sheets {
@@ -223,13 +243,14 @@ fn csv(sheets: &[Sheet]) -> String {
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
                 sheet.place.scene,
                 point.scene.spacing,
                 point.factor.name(),
                 point.name,
                 figures.particles,
                 figures.evaluations,
+                figures.pairs,
                 figures.seconds,
                 figures.processor_seconds,
                 figures.peak_memory_bytes,

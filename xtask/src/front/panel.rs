@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::labels::placed;
 use super::pareto::front;
-use crate::chart::{Axis, Scale, number};
+use crate::axes::{Axis, Frame, Scale};
 use crate::power_law::PowerLaw;
 
 /// Size of a panel, and the room around its axes: left, right, top, bottom.
@@ -69,49 +69,17 @@ impl Panel {
             .map(|dot| dot.at)
             .filter(|&at| is_drawable(at))
             .collect();
-        let all = |k: usize| drawn.iter().map(move |at| at[k]);
-        let [(xs, x_ticks), (ys, y_ticks)] = [0, 1].map(|k| axes[k].span(all(k)));
-        let x = |value: f64| left + (end - left) * axes[0].part(value, xs);
-        let y = |value: f64| floor - (floor - top) * axes[1].part(value, ys);
-        // Writing to a string cannot fail.
-        for tick in x_ticks {
-            let at = x(tick);
-            let _ = writeln!(
-                out,
-                "<path d=\"M{at:.1} {top:.1}V{floor:.1}\" stroke=\"#ddd\"/><text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-                floor + 17.0,
-                number(tick)
-            );
-        }
-        for tick in y_ticks {
-            let at = y(tick);
-            let _ = writeln!(
-                out,
-                "<path d=\"M{left:.1} {at:.1}H{end:.1}\" stroke=\"#ddd\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-                left - 6.0,
-                at + 4.0,
-                number(tick)
-            );
-        }
-        let _ = writeln!(
-            out,
-            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\n\
-             <text transform=\"translate({:.1} {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-            0.5 * (left + end),
-            floor + 38.0,
-            self.titles[0],
-            corner[0] + 14.0,
-            0.5 * (top + floor),
-            self.titles[1]
-        );
+        let frame = Frame::new(&axes, [left, top, end, floor], &drawn);
+        frame.draw(out);
         let places: Vec<Option<[f64; 2]>> = (self.dots.iter())
-            .map(|dot| is_drawable(dot.at).then(|| [x(dot.at[0]), y(dot.at[1])]))
+            .map(|dot| is_drawable(dot.at).then(|| frame.at(dot.at)))
             .collect();
         let named: Vec<usize> = match &self.law {
             Some(law) => {
-                let at = |value: f64| [x(value), y(law.at(value))];
-                let few = all(0).fold(f64::INFINITY, f64::min);
-                let many = all(0).fold(0.0, f64::max);
+                let at = |value: f64| frame.at([value, law.at(value)]);
+                let all = drawn.iter().map(|at| at[0]);
+                let few = all.clone().fold(f64::INFINITY, f64::min);
+                let many = all.fold(0.0, f64::max);
                 line(out, &[at(few), at(many)]);
                 (0..self.dots.len()).collect()
             }

@@ -202,6 +202,7 @@ mod tests {
                 let figures = Figures {
                     particles: 1000.0 * (i + 1.0).powi(2),
                     evaluations: 10.0 + i,
+                    pairs: 1e4 * (10.0 + i),
                     seconds: 0.01 * (i + 1.0).powi(3),
                     processor_seconds: 0.0,
                     peak_memory_bytes: 1e6,

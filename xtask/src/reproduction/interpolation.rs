@@ -1,8 +1,8 @@
 //! How well particles interpolate a function: the study of Negi & Ramachandran (2021), figs. 13, 16 and 20.
 
-use rayon::prelude::*;
 use sphpack_kernels::{Kernel, KernelKind, WithKernel};
-use sphpack_neighbors::{KdTree, point};
+use sphpack_neighbors::point;
+use sphpack_packing::interpolation::{Interpolant, MOVED, Wave, rms};
 use sphpack_packing::{Kind, Lattice, Packed};
 
 /// Errors of f = sin(r²) and of its derivative along x.
@@ -10,6 +10,17 @@ use sphpack_packing::{Kind, Lattice, Packed};
 pub(crate) struct Errors {
     pub(crate) function: f64,
     pub(crate) derivative: f64,
+}
+
+impl Errors {
+    /// Eq. 33 of both.
+    fn of(errors: &[[f64; 2]]) -> Self {
+        let [function, derivative] = rms(errors);
+        Self {
+            function,
+            derivative,
+        }
+    }
 }
 
 /// The three judges.
@@ -22,9 +33,6 @@ pub(crate) struct Study {
     /// At the particles, against the function itself.
     pub(crate) at_particles: Errors,
 }
-
-/// The part of ∆s by which the mesh is moved, axis by axis: no site of any lattice is there.
-const MOVED: [f64; 3] = [0.381_966, 0.236_068, 0.145_898];
 
 /// Nearer to the middle than this part of the body's longest edge nobody looks: the flow does not (the paper, §4.1).
 const MIDDLE: f64 = 0.45;
@@ -52,11 +60,12 @@ impl<const D: usize> WithKernel<D> for Studied<'_, D> {
 fn studied<const D: usize, K: Kernel<D>>(packed: &Packed<D>, kernel: &K) -> Study {
     let (domain, spacing) = (packed.domain, packed.spacing);
     let particles = &packed.particles;
-    let set = Set {
-        tree: KdTree::new(&particles.position).ok(),
-        positions: &particles.position,
-        volumes: &particles.volume,
+    // f = sin(r²).
+    let wave = Wave {
+        center: [0.0; D],
+        unit: 1.0,
     };
+    let set = Interpolant::new(&particles.position, &particles.volume);
     // The regular mesh, as far as kernels at its points see.
     let lattice = if D == 2 {
         Lattice::Square
@@ -68,41 +77,32 @@ fn studied<const D: usize, K: Kernel<D>>(packed: &Packed<D>, kernel: &K) -> Stud
     let inner = sites.len();
     sites.extend(mesh.continued(&domain, 2.0 * kernel.support()));
     let volumes = vec![mesh.volume_per_site(); sites.len()];
-    let regular = Set {
-        tree: KdTree::new(&sites).ok(),
-        positions: &sites,
-        volumes: &volumes,
-    };
+    let regular = Interpolant::new(&sites, &volumes);
     let edge = (packed.surfaces.iter())
         .map(|surface| surface.surface.bounds().size())
         .map(|size| size.into_iter().fold(0.0, f64::max))
         .fold(0.0, f64::max);
     let is_asked = |p: &[f64; D]| point::norm(*p) > MIDDLE * edge && domain.bounds.contains(*p);
     let points: Vec<[f64; D]> = sites[..inner].iter().copied().filter(is_asked).collect();
-    let printed = rms(&points, |p| {
-        let (own, reference) = (set.at(kernel, p), regular.at(kernel, p));
-        [own[0] - reference[0], own[1] - reference[1]]
-    });
+    // Both less the function itself: what is left is the one less the other.
+    let [own, reference] = [&set, &regular].map(|one| one.errors(kernel, &wave, &points));
+    let apart: Vec<[f64; 2]> = (own.iter().zip(&reference))
+        .map(|(own, reference)| [own[0] - reference[0], own[1] - reference[1]])
+        .collect();
+    let printed = Errors::of(&apart);
     let moved: Vec<[f64; D]> = (sites[..inner].iter())
         .map(|p| std::array::from_fn(|k| p[k] + MOVED[k] * spacing))
         .filter(is_asked)
         .collect();
-    let against_itself = |set: &Set<'_, D>, points: &[[f64; D]]| {
-        rms(points, |p| {
-            let (own, exact) = (set.at(kernel, p), function(p));
-            [own[0] - exact[0], own[1] - exact[1]]
-        })
+    let against_itself = |set: &Interpolant<'_, D>, points: &[[f64; D]]| {
+        Errors::of(&set.errors(kernel, &wave, points))
     };
     // The packing's own lattice, undisturbed, beside it.
     let own = packed.frozen_lattice;
     let mut perfect = own.sites();
     perfect.extend(own.continued(&domain, 2.0 * kernel.support()));
     let perfect_volumes = vec![own.volume_per_site(); perfect.len()];
-    let perfect = Set {
-        tree: KdTree::new(&perfect).ok(),
-        positions: &perfect,
-        volumes: &perfect_volumes,
-    };
+    let perfect = Interpolant::new(&perfect, &perfect_volumes);
     let (ours, floor) = (
         against_itself(&set, &moved),
         against_itself(&perfect, &moved),
@@ -119,52 +119,6 @@ fn studied<const D: usize, K: Kernel<D>>(packed: &Packed<D>, kernel: &K) -> Stud
             derivative: ours.derivative / floor.derivative,
         },
         at_particles: against_itself(&set, &at),
-    }
-}
-
-/// f = sin(r²) and ∂f/∂x.
-fn function<const D: usize>(p: [f64; D]) -> [f64; 2] {
-    let square = point::norm_squared(p);
-    [square.sin(), 2.0 * p[0] * square.cos()]
-}
-
-/// Particles that interpolate.
-struct Set<'a, const D: usize> {
-    tree: Option<KdTree<D>>,
-    positions: &'a [[f64; D]],
-    volumes: &'a [f64],
-}
-
-impl<const D: usize> Set<'_, D> {
-    /// ⟨f⟩ and ⟨∂f/∂x⟩ at a place (eqs. 31 and 32).
-    fn at<K: Kernel<D>>(&self, kernel: &K, p: [f64; D]) -> [f64; 2] {
-        let Some(tree) = &self.tree else {
-            return [0.0; 2];
-        };
-        let (mut value, mut slope) = (0.0, 0.0);
-        for found in tree.within(p, kernel.support()) {
-            let j = found.index;
-            let apart = point::sub(p, self.positions[j]);
-            let of_j = self.volumes[j] * function(self.positions[j])[0];
-            value += of_j * kernel.value(found.distance);
-            slope += of_j * kernel.gradient(apart)[0];
-        }
-        [value, slope]
-    }
-}
-
-/// Eq. 33 of two errors at once.
-fn rms<const D: usize>(points: &[[f64; D]], error: impl Fn([f64; D]) -> [f64; 2] + Sync) -> Errors {
-    let all: Vec<[f64; 2]> = points
-        .par_iter()
-        .with_min_len(64)
-        .map(|&p| error(p))
-        .collect();
-    let n = all.len().max(1) as f64;
-    let of = |k: usize| (all.iter().map(|e| e[k] * e[k]).sum::<f64>() / n).sqrt();
-    Errors {
-        function: of(0),
-        derivative: of(1),
     }
 }
 

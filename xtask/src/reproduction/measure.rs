@@ -27,6 +27,14 @@ pub(crate) enum Measure {
     DensityLeft,
     /// The same over what it was at the start.
     DensityLeftOverStart,
+    /// The same over the largest error while an agitator ran.
+    DensityLeftOverStirred,
+    /// Largest distance from a place near a surface to the nearest particle, in ∆s.
+    LargestHole,
+    /// Smallest Γ at such places.
+    LeastGamma,
+    /// Largest h |∇Γ| of the fluid's particles, the bodies' among their neighbours.
+    FluidResidual,
     /// Root mean square of h |∇Γ| over the free particles.
     ResidualRms,
     /// Surface particles that ∇·r < d − 0.625 does not find, over all of them.
@@ -83,7 +91,7 @@ pub(crate) enum Measure {
 }
 
 impl Measure {
-    pub(crate) const ALL: [Self; 38] = [
+    pub(crate) const ALL: [Self; 42] = [
         Self::Variation,
         Self::VariationNear,
         Self::Linf,
@@ -96,6 +104,10 @@ impl Measure {
         Self::FromSite,
         Self::DensityLeft,
         Self::DensityLeftOverStart,
+        Self::DensityLeftOverStirred,
+        Self::LargestHole,
+        Self::LeastGamma,
+        Self::FluidResidual,
         Self::ResidualRms,
         Self::SurfaceMissed,
         Self::SurfaceFalse,
@@ -139,6 +151,12 @@ impl Measure {
             Self::FromSite => "farthest from a site at the end / ∆s",
             Self::DensityLeft => "L∞(Γ − the lattice's) at the end",
             Self::DensityLeftOverStart => "L∞(Γ − the lattice's), end / start",
+            Self::DensityLeftOverStirred => {
+                "L∞(Γ − the lattice's) at the end / largest L∞ while stirred"
+            }
+            Self::LargestHole => "largest hole near the surface / ∆s",
+            Self::LeastGamma => "least Γ near the surface",
+            Self::FluidResidual => "largest h|∇Γ| of the fluid",
             Self::ResidualRms => "rms of h|∇Γ|",
             Self::SurfaceMissed => "surface particles not found by ∇·r < d − 0.625, part",
             Self::SurfaceFalse => "others found by ∇·r < d − 0.625, per surface particle",

@@ -11,6 +11,7 @@ mod row;
 mod rows;
 mod setup;
 mod subject;
+mod thumbnail;
 mod trials;
 
 use std::collections::BTreeSet;
@@ -22,7 +23,6 @@ use crate::power_law::PowerLaw;
 use crate::selection::Selection;
 use crate::workspace::root;
 use claims::{FIGURES, KNOWN_MISSES};
-pub(crate) use interpolation::study;
 use measure::Measure;
 pub(crate) use measured::paint;
 use measured::{Measured, Store};
@@ -30,6 +30,7 @@ use page::{Result as Ended, Verdict, figure, published};
 use row::{Row, Taken};
 use rows::rows;
 use setup::Setup;
+pub(crate) use trials::{REVOLUTION, Stirred};
 
 /// The papers that have rows.
 const PAPERS: &str = "000|001|002|003|004";

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::claims::FIGURES;
 use super::row::{Figure, Published, Row};
+use super::thumbnail::thumbnail;
 
 /// A row, and what came of it.
 pub(crate) struct Result {
@@ -129,7 +130,7 @@ fn summary(result: &Result) -> Value {
     })
 }
 
-/// Pictures of a figure, at most: each takes about half a megabyte of the page.
+/// Pictures of a figure, at most.
 const PICTURES: usize = 3;
 
 const HEAD: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Packing, published and ours</title>\n<style>\
@@ -149,20 +150,27 @@ fn html(results: &[Result], is_quick: bool) -> std::result::Result<String, Strin
          Papers go by the numbers of docs/papers.md. A row <em>holds</em> where our number is within its bar; rows <em>beside</em> are not judged. \
          Ratios are the named method's number over the first one's.</p>\n"
     );
+    // Figures share packings: each picture is shown with the first.
+    let mut shown = Vec::new();
     for figure in &FIGURES {
         let own: Vec<&Result> = results
             .iter()
             .filter(|r| (r.row.paper, r.row.figure) == (figure.paper, figure.figure))
             .collect();
         if !own.is_empty() || figure.missing.is_some() {
-            section(&mut out, figure, &own)?;
+            section(&mut out, figure, &own, &mut shown)?;
         }
     }
     out.push_str("</body></html>\n");
     Ok(out)
 }
 
-fn section(out: &mut String, figure: &Figure, own: &[&Result]) -> std::result::Result<(), String> {
+fn section<'a>(
+    out: &mut String,
+    figure: &Figure,
+    own: &[&'a Result],
+    shown: &mut Vec<&'a Path>,
+) -> std::result::Result<(), String> {
     let _ = writeln!(
         out,
         "<h2>{} {}: {}</h2>",
@@ -194,16 +202,16 @@ fn section(out: &mut String, figure: &Figure, own: &[&Result]) -> std::result::R
         );
     }
     out.push_str("</table>\n<div class=\"pictures\">\n");
-    let mut seen = Vec::new();
+    let most = shown.len() + PICTURES;
     for result in own {
         let Some(picture) = &result.picture else {
             continue;
         };
-        if seen.contains(&picture) || seen.len() == PICTURES {
+        if shown.contains(&picture.as_path()) || shown.len() == most {
             continue;
         }
-        seen.push(picture);
-        let bytes = fs::read(picture).map_err(|error| format!("{}: {error}", picture.display()))?;
+        shown.push(picture);
+        let bytes = thumbnail(picture)?;
         let subject = &result.row.subject;
         let from = (subject.packing()).map_or_else(String::new, |setup| {
             format!("; scenes/{}.toml", setup.scene)

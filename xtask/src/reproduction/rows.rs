@@ -4,11 +4,13 @@
 
 mod captured;
 mod displaced;
+mod elements;
 mod fluids;
 mod moving_bodies;
 mod repelled;
 mod separated;
 mod slopes;
+mod stirred;
 
 use sphpack::scene::Method;
 
@@ -92,6 +94,7 @@ pub(crate) fn rows() -> Vec<Row> {
     let mut all = Vec::new();
     repelled::repelled(&mut all);
     displaced::displaced(&mut all);
+    stirred::stirred(&mut all);
     captured::captured(&mut all);
     cylinder(&mut all);
     zigzag(&mut all);
@@ -102,6 +105,7 @@ pub(crate) fn rows() -> Vec<Row> {
     fluids::fluids(&mut all);
     moving_bodies::moving_bodies(&mut all);
     separated::separated(&mut all);
+    elements::elements(&mut all);
     relaxation(&mut all);
     slopes::slopes(&mut all);
     all

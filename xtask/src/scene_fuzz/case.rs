@@ -5,6 +5,9 @@ use std::fmt::Write;
 use super::kernel::Kernel;
 use super::shape::Shape;
 
+/// The method that picks settings.
+pub(super) const AUTO: &str = "auto";
+
 /// What a body is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
@@ -143,9 +146,9 @@ impl Case {
         self
     }
 
-    /// The method that it asks for.
+    /// The method that it asks for; settings that are picked are those of the default one.
     pub(super) fn method(&self) -> &'static str {
-        self.method.unwrap_or("balanced")
+        (self.method.filter(|method| *method != AUTO)).unwrap_or("balanced")
     }
 
     /// The kernel and h/∆s that pack.

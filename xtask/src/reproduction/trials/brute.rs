@@ -34,6 +34,23 @@ pub(super) fn periodic_gamma<const D: usize>(
     positions.iter().map(of).collect()
 }
 
+/// Γ of the first `targets` particles, of which all have the same volume.
+pub(super) fn gamma<const D: usize>(
+    positions: &[[f64; D]],
+    targets: usize,
+    volume: f64,
+    h: f64,
+) -> Vec<f64> {
+    let of = |p: &[f64; D]| {
+        let all = positions.iter().map(|q| {
+            let square: f64 = (0..D).map(|k| (p[k] - q[k]).powi(2)).sum();
+            quintic::<D>(square.sqrt(), h)
+        });
+        volume * all.sum::<f64>()
+    };
+    positions.iter().take(targets).map(of).collect()
+}
+
 /// dW/dr at distance `r`.
 pub(super) fn quintic_slope<const D: usize>(r: f64, h: f64) -> f64 {
     let part = |reach: f64| (reach - r / h).max(0.0).powi(4);

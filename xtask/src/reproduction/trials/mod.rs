@@ -3,16 +3,22 @@
 mod brute;
 mod captured;
 mod displaced;
+mod elements;
 mod repelled;
 mod separated;
+mod stirred;
+mod walled;
 mod winding;
 
 use std::collections::BTreeMap;
 
 pub(crate) use captured::Captured;
 pub(crate) use displaced::Displaced;
+pub(crate) use elements::Elements;
 pub(crate) use repelled::Repelled;
 pub(crate) use separated::Separated;
+pub(crate) use stirred::{REVOLUTION, Stirred};
+pub(crate) use walled::Walled;
 
 use super::measure::Measure;
 use crate::selection::Selection;
@@ -28,6 +34,12 @@ pub(crate) enum Trial {
     Separated(Separated),
     /// Two particles that repel each other.
     Repelled(Repelled),
+    /// A lattice after an agitator.
+    Stirred(Stirred),
+    /// A lattice among frozen particles, one off its site.
+    Walled(Walled),
+    /// An airfoil of three elements, relaxed.
+    Elements(Elements),
 }
 
 impl From<Displaced> for Trial {
@@ -54,6 +66,24 @@ impl From<Repelled> for Trial {
     }
 }
 
+impl From<Stirred> for Trial {
+    fn from(trial: Stirred) -> Self {
+        Self::Stirred(trial)
+    }
+}
+
+impl From<Walled> for Trial {
+    fn from(trial: Walled) -> Self {
+        Self::Walled(trial)
+    }
+}
+
+impl From<Elements> for Trial {
+    fn from(trial: Elements) -> Self {
+        Self::Elements(trial)
+    }
+}
+
 impl Trial {
     /// What it is, in a line.
     pub(crate) fn words(&self) -> String {
@@ -62,6 +92,9 @@ impl Trial {
             Self::Captured(trial) => trial.words(),
             Self::Separated(trial) => trial.words(),
             Self::Repelled(trial) => trial.words(),
+            Self::Stirred(trial) => trial.words(),
+            Self::Walled(trial) => trial.words(),
+            Self::Elements(trial) => trial.words(),
         }
     }
 
@@ -72,6 +105,9 @@ impl Trial {
             Self::Captured(trial) => format!("every {} iterations", trial.every),
             Self::Separated(trial) => trial.scene.to_owned(),
             Self::Repelled(trial) => trial.words(),
+            Self::Stirred(trial) => trial.lattice.name().to_owned(),
+            Self::Walled(trial) => trial.short().to_owned(),
+            Self::Elements(trial) => trial.short(),
         }
     }
 
@@ -85,6 +121,9 @@ impl Trial {
             Self::Captured(trial) => trial.figures().map(Some),
             Self::Separated(trial) => trial.figures(selection),
             Self::Repelled(trial) => Ok(Some(trial.figures())),
+            Self::Stirred(trial) => trial.figures().map(Some),
+            Self::Walled(trial) => Ok(Some(trial.figures())),
+            Self::Elements(trial) => trial.figures(selection),
         }
     }
 }

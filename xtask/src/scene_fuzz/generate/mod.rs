@@ -134,6 +134,7 @@ pub(super) fn case(seed: u64, number: u64) -> Case {
     }
     settings::finish(random, &mut case, room.size.iter().product());
     settings::refine(random, &mut case, &room.size);
+    settings::accuracy(random, &mut case);
     // Now and then with a solid body, which is refused.
     if case.method() == "ppa" && random.chance(0.9) {
         case = case.emptied();
@@ -161,6 +162,7 @@ fn surfaces(random: &mut Random, bodies: &mut [Body]) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::case::AUTO;
     use super::*;
 
     #[test]
@@ -202,6 +204,8 @@ mod tests {
                 share(&|case| case.packing.contains(&line) && case.method() != "balanced");
             assert_eq!(default, 0.0);
         }
+        let picked = share(&|case| case.method == Some(AUTO));
+        assert!((0.02..0.06).contains(&picked), "{picked}");
         let graded = share(&|case| case.refinement.is_some());
         assert!((0.04..0.09).contains(&graded), "{graded}");
         let files = share(&|case| case.bodies.iter().any(|body| body.shape.file().is_some()));

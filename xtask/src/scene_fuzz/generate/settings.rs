@@ -1,6 +1,6 @@
 //! How random scenes are packed, judged and written.
 
-use super::super::case::{Case, Refinement};
+use super::super::case::{AUTO, Case, Refinement};
 use super::super::kernel::Kernel;
 use super::super::random::Random;
 
@@ -157,5 +157,22 @@ pub(super) fn refine(random: &mut Random, case: &mut Case, size: &[f64]) {
         if random.chance(0.2) {
             body.spacing = Some(random.between(0.6, 1.5));
         }
+    }
+}
+
+/// Settings picked for an accuracy, in some scenes of the default method. Drawn after all else, as [`finish`].
+pub(super) fn accuracy(random: &mut Random, case: &mut Case) {
+    if case.method() != "balanced" || !random.chance(0.06) {
+        return;
+    }
+    case.method = Some(AUTO);
+    let measures = ["linf", "linf", "residual", "interpolation", "derivative"];
+    let (measure, most) = (
+        random.pick(&measures),
+        random.pick(&[1.0, 0.03, 0.003, 3e-4]),
+    );
+    if random.chance(0.9) {
+        case.packing
+            .push(format!("accuracy = {{ {measure} = {most:?} }}"));
     }
 }

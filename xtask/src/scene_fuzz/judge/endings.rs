@@ -134,7 +134,7 @@ fn files_are_there(trial: &Trial, faults: &mut Faults) {
     }
 }
 
-/// Exit 0 says settled and sound, exit 3 that one of them is not so.
+/// Exit 0 says settled, sound and as accurate as asked, exit 3 that one of them is not so.
 fn consistent(trial: &Trial, is_done: bool, faults: &mut Faults) {
     let Some(report) = &trial.report else {
         return;
@@ -143,12 +143,15 @@ fn consistent(trial: &Trial, is_done: bool, faults: &mut Faults) {
     let audit = report
         .get("audit")
         .and_then(|audit| audit.get("passed")?.as_bool());
-    let says_done = converged == Some(true) && audit != Some(false);
+    let reached = report
+        .get("auto")
+        .and_then(|auto| auto.get("reached")?.as_bool());
+    let says_done = converged == Some(true) && audit != Some(false) && reached != Some(false);
     if says_done != is_done {
         faults.add(
             "report and exit status disagree",
             format!(
-                "exit {:?}, converged {converged:?}, audit passed {audit:?}",
+                "exit {:?}, converged {converged:?}, audit passed {audit:?}, accuracy reached {reached:?}",
                 trial.pack.code
             ),
         );
