@@ -202,7 +202,7 @@ pub(crate) const KNOWN_MISSES: [(&str, &str); 13] = [
     ),
 ];
 
-const COLLECTIVE: &str = "at this h/∆s a motion of many particles lowers the energy of a perfect lattice, and one particle sets it off (docs/lattices.md; at \
+const COLLECTIVE: &str = "at this h/∆s a motion of many particles lowers the energy of a perfect lattice, and one particle sets it off (docs/stability.md; at \
                           1.11 none does), and a periodic box lets it; the paper holds its box by fixed particles and does not say its h/∆s";
 const COARSE: &str = "less, but not ten times less; the paper shows curves and no number";
 const LAYERS: &str = "our offset layers are sampled evenly, and interpolate about as well as the hybrid method's where the middle of the body, \
