@@ -5,8 +5,8 @@ use sphpack_packing::{Agitated, Agitators, Hybrid};
 
 use super::fault::{Checked, Key, fault, positive};
 
-/// No kernel's lattice bears a time step of so many times Negi & Ramachandran's (docs/stability.md).
-const MOST_TIME_STEP: f64 = 30.0;
+/// Lattices bear time steps of some ten times Negi & Ramachandran's (docs/stability.md), packings less.
+const MOST_TIME_STEP: f64 = 10.0;
 
 /// Of the method hybrid; its defaults are Negi & Ramachandran's algorithm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

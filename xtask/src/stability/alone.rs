@@ -59,7 +59,8 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
             lowered.lattice, lowered.h
         ));
     }
-    let is_in_table = |f: &&Found| is_quick || (100.0 * f.h).round() as usize % IN_TABLE == 0;
+    let is_in_table =
+        |f: &&Found| is_quick || ((100.0 * f.h).round() as usize).is_multiple_of(IN_TABLE);
     let mut text = String::from(
         "## 001 fig. 7: one particle alone, and all together\n\n\
          Negi & Ramachandran (2021) find that in space the rectangular lattice does not come back after one particle was moved, and the\n\
@@ -67,7 +68,7 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
          h/∆s from 0.80 to 1.50, in steps of 0.01, the energy rises, for small moves (*alone*: the least eigenvalue of one particle while all\n\
          others stay) and for theirs (∆s/4 and ∆s/2 along each axis). What lowers it is a wave in which all take part (*together*: the\n\
          least eigenvalue of any wave), and pushing one particle is one way to begin it. The quintic kernel; eigenvalues over the greatest of\n\
-         all waves.\n\n\
+         all waves. In the picture *one* is what is positive, *all* the size of what is negative; where no wave grows nothing is drawn.\n\n\
          ![Eigenvalues of one particle and of all](stability-alone.svg)\n\n\
          | lattice | h/∆s | alone | together | energy of a move by ∆s/4 / p_b ∆s³ | by ∆s/2 |\n|---|---|---|---|---|---|\n",
     );
@@ -125,12 +126,12 @@ fn chart(found: &[Found]) -> Chart {
                 .collect()
         };
         series.push(Series {
-            name: format!("{lattice}, alone"),
+            name: format!("{lattice}, one"),
             points: of(&|one| one.alone),
             joined: true,
         });
         series.push(Series {
-            name: format!("{lattice}, −together"),
+            name: format!("{lattice}, all"),
             // What is stable is left out.
             points: of(&|one| {
                 if super::sweep::is_stable(one.together) {
@@ -143,7 +144,7 @@ fn chart(found: &[Found]) -> Chart {
         });
     }
     Chart {
-        title: "Moved alone a particle is held; waves of all are not",
+        title: "One particle alone is held (positive), all together are not (negative)",
         axes: [
             Axis {
                 title: "h/∆s",

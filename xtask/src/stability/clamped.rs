@@ -55,7 +55,8 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
         .collect::<Result<_, _>>()?;
     let mut text = format!(
         "## 000 fig. 14: clamped boxes\n\n\
-         The preprint looks at a box of {PUBLISHED} ∆s among frozen particles (h/∆s = 1.2). Only waves that fit into it can grow there: the table has the\n\
+         The preprint looks at a box of {PUBLISHED} ∆s among frozen particles (its h/∆s is taken to be 1.2, that of its study in the plane), sees\n\
+         the rectangular lattice leave its sites and the hexagonal one come back, and takes the latter for stable in space. Only waves that fit into it can grow there: the table has the\n\
          least eigenvalue of what is free in a cube (square) of the lattice, over the greatest of the endless lattice. The smallest unstable\n\
          box is what has room for a growing wave; below it the lattice stays, whatever it does in a large packing. The quintic kernel.\n\n\
          ![Least eigenvalue against the size of the box](stability-clamped.svg)\n\n\

@@ -163,8 +163,7 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
         );
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{line}");
-        // Not a number is no rate either.
-        if !(off.abs() <= BAR) {
+        if off.is_nan() || off.abs() > BAR {
             missed.push(line);
         }
     }

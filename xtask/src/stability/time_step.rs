@@ -41,8 +41,8 @@ struct Found {
     h: f64,
     /// The greatest eigenvalue, times ∆s²ρ/p_b.
     greatest: f64,
-    /// Largest multiples without damping and with: the bound, and measured.
-    largest: [[f64; 2]; 2],
+    /// Largest multiples without damping and with: the bound, that of the waves that fit into the box, and measured.
+    largest: [[f64; 3]; 2],
 }
 
 /// The table.
@@ -70,16 +70,16 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
     let mut text = format!(
         "## Time step\n\n\
          The largest step ∆t at which a lattice with noise of {NOISE:.0e} ∆s does not blow up within {STEPS} steps, as a multiple of 001\n\
-         eq. 25 (∆t = {PUBLISHED} h for p_b = 1), by bisection; beside it the bound. Semi-implicit Euler bears ω² ∆t² ≤ 4, ω² the greatest\n\
+         eq. 25 (∆t = {PUBLISHED} h for p_b = 1), by bisection; beside it the bound, of all waves and of those that fit into the periodic box of about {EDGE} ∆s. Semi-implicit Euler bears ω² ∆t² ≤ 4, ω² the greatest\n\
          eigenvalue, and with damping ζ, taken explicitly as the damped methods take it, ω² ∆t² + 2 ζ ∆t ≤ 4 (ζ = {DAMPING}/∆s). Taken is the\n\
          lattice that `lattice = \"auto\"` takes, at the h/∆s nearest to 1.2 at which it is stable.\n\n\
-         | kernel | dimension | lattice | h/∆s | ω² ρ∆s²/p_b | bound | measured | damped: bound | measured |\n|---|---|---|---|---|---|---|---|---|\n"
+         | kernel | dimension | lattice | h/∆s | ω² ρ∆s²/p_b | bound | in the box | measured | damped: bound | in the box | measured |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
     );
     let mut missed = Vec::new();
     for f in &found {
         let [plain, damped] = f.largest;
         let line = format!(
-            "| {} | {} | {} | {:.2} | {:.3} | {:.2} | {:.2} | {:.2} | {:.2} |",
+            "| {} | {} | {} | {:.2} | {:.3} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} |",
             f.kernel,
             f.lattice.dimension(),
             f.lattice,
@@ -87,12 +87,14 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
             f.greatest,
             plain[0],
             plain[1],
+            plain[2],
             damped[0],
             damped[1],
+            damped[2],
         );
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{line}");
-        let is_off = |[bound, measured]: [f64; 2]| !((measured / bound - 1.0).abs() <= BAR);
+        let is_off = |[_, in_box, measured]: [f64; 3]| (measured / in_box - 1.0).abs() > BAR;
         if f.largest.into_iter().any(is_off) {
             missed.push(line);
         }
@@ -103,7 +105,10 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
             missed.join("\n")
         ));
     }
-    text.push('\n');
+    text.push_str(
+        "\nThese are lattices. Where particles are irregular, close pairs are stiffer: packings bear less, with repulsion less still. The method\n\
+         hybrid takes a multiple as `hybrid.time_step` in a scene.\n\n",
+    );
     Ok(Section {
         text,
         pictures: Vec::new(),
@@ -130,13 +135,21 @@ fn resting(kernel: KernelKind, dimension: usize) -> Result<(Lattice, f64), Strin
 }
 
 fn find<const D: usize>(kernel: KernelKind, lattice: Lattice, h: f64) -> Result<Found, String> {
-    let greatest = Crystal::<D>::new(lattice, kernel, h).extremes()?.greatest;
+    let crystal = Crystal::<D>::new(lattice, kernel, h);
+    let greatest = crystal.extremes()?.greatest;
+    let in_box = (crystal
+        .cell
+        .waves_in(lattice, cells::<D>(lattice, EDGE))
+        .into_iter())
+    .map(|k| Ok(crystal.values(k)?.into_iter().fold(0.0, f64::max)))
+    .collect::<Result<Vec<f64>, String>>()?
+    .into_iter()
+    .fold(0.0, f64::max);
     let largest = [0.0, DAMPING].map(|zeta| {
-        let bound = ((zeta * zeta + 4.0 * greatest).sqrt() - zeta) / greatest;
-        [
-            bound / (PUBLISHED * h),
-            measured::<D>(kernel, lattice, h, zeta),
-        ]
+        let bound =
+            |square: f64| ((zeta * zeta + 4.0 * square).sqrt() - zeta) / (square * PUBLISHED * h);
+        let measured = measured::<D>(kernel, lattice, h, zeta);
+        [bound(greatest), bound(in_box), measured]
     });
     Ok(Found {
         kernel,
