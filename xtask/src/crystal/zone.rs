@@ -7,11 +7,14 @@ use sphpack_packing::Lattice;
 use super::Crystal;
 
 /// Wave vectors that are looked at, spread evenly over the Brillouin zone, and others near its middle.
-const WAVES: usize = 500;
+const WAVES: usize = 1000;
 const LONG_WAVES: usize = 250;
 
 /// How near: where long waves bend the lattice as a whole.
 const LONG: f64 = 0.1;
+
+/// From so many of them the way goes downhill: the lowest need not lie beside the lowest seen.
+const TRIED: usize = 5;
 
 /// The last steps of the search are this part of the first.
 const LAST: f64 = 1e-2;
@@ -60,10 +63,11 @@ impl<const D: usize> Crystal<D> {
             let values = self.values(self.cell.wave(parts))?;
             Ok(-values[values.len() - 1])
         };
-        let (mut low, mut high, mut long) = ([(f64::INFINITY, [0.0; D]); 3]).into();
+        let (mut high, mut long) = ([(f64::INFINITY, [0.0; D]); 2]).into();
+        let mut seen = Vec::with_capacity(WAVES);
         for parts in (0..WAVES).map(spread) {
             let values = self.values(self.cell.wave(parts))?;
-            low = lower(low, (values[0], parts));
+            seen.push((values[0], parts));
             high = lower(high, (-values[values.len() - 1], parts));
         }
         for parts in (0..LONG_WAVES).map(spread) {
@@ -71,7 +75,11 @@ impl<const D: usize> Crystal<D> {
             long = lower(long, (over_square(parts)?, parts));
         }
         let apart = |waves: usize| 0.5 * (waves as f64).powf(-1.0 / D as f64);
-        let low = descend(low, apart(WAVES), least)?;
+        seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut low = seen[0];
+        for begin in seen.into_iter().take(TRIED) {
+            low = lower(low, descend(begin, apart(WAVES), least)?);
+        }
         let high = descend(high, apart(WAVES), minus_greatest)?;
         let long = descend(long, LONG * apart(LONG_WAVES), over_square)?;
         let low = lower(low, (least(long.1)?, long.1));

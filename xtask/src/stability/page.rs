@@ -17,8 +17,8 @@ pub(super) fn beginning(sweep: &Sweep) -> String {
     let mut text = String::from(
         "# Stability of lattices\n\n\
          **What is safe.** A packing starts from a lattice, and far from bodies it stays one, if the lattice is stable with the kernel and h/∆s\n\
-         that pack. Where it is not, particles leave their sites in waves, without end: the packing still becomes even, but takes more\n\
-         evaluations, and is no lattice anywhere. `lattice = \"auto\"` takes the lattice of least energy; it is stable at\n\n\
+         that pack. Where it is not, waves that carry particles off their sites grow from any disturbance; packings from such lattices take\n\
+         more evaluations ([lattices.md](lattices.md)). `lattice = \"auto\"` takes the lattice of least energy; it is stable at\n\n\
          | kernel | in the plane, h/∆s | in space, h/∆s |\n|---|---|---|\n",
     );
     for kernel in KernelKind::ALL {

@@ -78,8 +78,9 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
         "## Pairing\n\n\
          {} particles at random places of a periodic square settle by L-BFGS ({PATIENCE} evaluations at most); {STARTS} starts each. The table\n\
          has the ranges of h/∆s in steps of 0.05 at which not one has another nearer than ∆s/2 in the end, in any start, the largest part\n\
-         of them that has, and the closest two of all. A kernel with a negative lobe in its Fourier transform pulls close pairs together where h is large (the splines; the\n\
-         Wendland kernels have none). Repulsion is 001's, C = {}, as balanced has it in its first stage.\n\n\
+         of them that has, and the closest two of all. A kernel with a negative lobe in its Fourier transform pulls close pairs together where\n\
+         h is large (Dehnen & Aly 2012): the splines; the Wendland kernels have none. Repulsion is 001's, C = {}, as balanced has it in its\n\
+         first stage.\n\n\
          ![Particles in pairs](stability-pairing.svg)\n\n\
          | kernel | repulsion | no pairs at h/∆s | most in pairs | at h/∆s | closest pair / ∆s | at h/∆s |\n|---|---|---|---|---|---|---|\n",
         EDGE * EDGE,

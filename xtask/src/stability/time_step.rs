@@ -70,9 +70,10 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
     let mut text = format!(
         "## Time step\n\n\
          The largest step ∆t at which a lattice with noise of {NOISE:.0e} ∆s does not blow up within {STEPS} steps, as a multiple of 001\n\
-         eq. 25 (∆t = {PUBLISHED} h for p_b = 1), by bisection; beside it the bound, of all waves and of those that fit into the periodic box of about {EDGE} ∆s. Semi-implicit Euler bears ω² ∆t² ≤ 4, ω² the greatest\n\
-         eigenvalue, and with damping ζ, taken explicitly as the damped methods take it, ω² ∆t² + 2 ζ ∆t ≤ 4 (ζ = {DAMPING}/∆s). Taken is the\n\
-         lattice that `lattice = \"auto\"` takes, at the h/∆s nearest to 1.2 at which it is stable.\n\n\
+         eq. 25 (∆t = {PUBLISHED} h for p_b = 1), by bisection; beside it the bound, of all waves and of those that fit into the periodic box\n\
+         of about {EDGE} ∆s. Semi-implicit Euler bears ω² ∆t² ≤ 4, ω² the greatest eigenvalue, and with damping ζ, taken explicitly as the damped\n\
+         methods take it, ω² ∆t² + 2 ζ ∆t ≤ 4 (ζ = {DAMPING}/∆s). Taken is the lattice that `lattice = \"auto\"` takes, at the h/∆s nearest to 1.2 at\n\
+         which it is stable.\n\n\
          | kernel | dimension | lattice | h/∆s | ω² ρ∆s²/p_b | bound | in the box | measured | damped: bound | in the box | measured |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
     );
     let mut missed = Vec::new();
