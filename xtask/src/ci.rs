@@ -8,7 +8,7 @@ use std::time::Instant;
 use crate::scene_fuzz::{self, faults, files, kills};
 use crate::selection::Selection;
 use crate::workspace::root;
-use crate::{balanced, bodies, front, reproduction, tidy, variable};
+use crate::{balanced, bodies, front, reproduction, stability, tidy, variable};
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
 const RANDOM_SCENES: usize = 50;
@@ -63,6 +63,7 @@ pub(crate) fn run() -> Result<(), String> {
         ..Selection::default()
     };
     reproduction::run(&reproduction::Settings::quick())?;
+    stability::run(&stability::Settings::quick())?;
     balanced::run(&quick)?;
     front::run(&front::Settings::quick())?;
     variable::run(&quick)?;

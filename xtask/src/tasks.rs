@@ -6,7 +6,7 @@ use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
     balanced, bodies, ci, compare, corpora, draw, front, fuzz, lattices, reliability, reproduction,
-    round_trip, speed, tidy, variable,
+    round_trip, speed, stability, tidy, variable,
 };
 
 /// What is left to do once the arguments are read.
@@ -24,7 +24,7 @@ pub(crate) struct Task {
 }
 
 /// In the order of the usage; of one name the forms with flags come first.
-pub(crate) const TASKS: [Task; 20] = [
+pub(crate) const TASKS: [Task; 21] = [
     Task {
         name: "ci",
         known: &[],
@@ -216,6 +216,18 @@ pub(crate) const TASKS: [Task; 20] = [
         },
     },
     Task {
+        name: "stability lattice",
+        known: stability::Settings::KNOWN,
+        about: &[
+            "which lattices stay with which kernel and h/∆s, confirmed by time evolution; pairs; time steps;",
+            "--quick runs a few cases, --write also writes docs/stability.md",
+        ],
+        read: |given| {
+            let settings = stability::Settings::of(given)?;
+            Ok(Box::new(move || stability::run(&settings)))
+        },
+    },
+    Task {
         name: "speed",
         known: Selection::KNOWN,
         about: &[
@@ -313,9 +325,14 @@ mod tests {
 
     /// The least that a task, or a form of one, runs with.
     fn least(task: &Task) -> String {
+        let takes_a_value = |form| {
+            task.known
+                .iter()
+                .any(|flag| flag.starts_with(&format!("{form} ")))
+        };
         let of_form = match task.called() {
-            (_, Some(_)) => " 7",
-            (_, None) => "",
+            (_, Some(form)) if takes_a_value(form) => " 7",
+            _ => "",
         };
         let needed = if task.name == "corpora" {
             " --data here"

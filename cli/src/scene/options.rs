@@ -5,6 +5,9 @@ use sphpack_packing::{Agitated, Agitators, Hybrid};
 
 use super::fault::{Checked, Key, fault, positive};
 
+/// Lattices bear time steps of some ten times Negi & Ramachandran's (docs/stability.md), packings less.
+const MOST_TIME_STEP: f64 = 10.0;
+
 /// Of the method hybrid; its defaults are Negi & Ramachandran's algorithm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -19,6 +22,8 @@ pub struct HybridOptions {
     pub projection_growth: f64,
     /// Capture distances in ∆s, at first and after some passes that found none.
     pub capture: [f64; 2],
+    /// The time step, as a multiple of Negi & Ramachandran's (2021, eq. 25).
+    pub time_step: f64,
 }
 
 impl Default for HybridOptions {
@@ -29,6 +34,7 @@ impl Default for HybridOptions {
             moving: None,
             projection_growth: hybrid.projection_growth,
             capture: hybrid.capture_over_spacing,
+            time_step: hybrid.time_step,
         }
     }
 }
@@ -41,6 +47,7 @@ impl HybridOptions {
             moving_over_spacing: self.moving.unwrap_or(f64::INFINITY),
             projection_growth: self.projection_growth,
             capture_over_spacing: self.capture,
+            time_step: self.time_step,
             ..hybrid
         }
     }
@@ -74,6 +81,15 @@ impl HybridOptions {
                 format!(
                     "packing.hybrid.capture is [{}, {}]; both must be between 0 and 1, such as [0.5, 0.65]",
                     self.capture[0], self.capture[1]
+                ),
+            );
+        }
+        if !(self.time_step > 0.0 && self.time_step <= MOST_TIME_STEP) {
+            return fault(
+                &at("time_step"),
+                format!(
+                    "packing.hybrid.time_step is {}; it must be above 0, and {MOST_TIME_STEP} at most: 1 is that of Negi & Ramachandran, try 4",
+                    self.time_step
                 ),
             );
         }

@@ -74,6 +74,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # hybrid.moving = 6.0            # only particles within so many spacings of a surface move (no default: all)
 # hybrid.projection_growth = 1.0 # after the capture phase each capture waits longer by this factor, such as 1.5
 # hybrid.capture = [0.5, 0.65]   # particles within so many spacings of a surface are put on it: at first, later
+# hybrid.time_step = 1.0         # so many times as long a time step as published, 10 at most; see docs/stability.md
 # agitated.agitators = "turning" # turning | resting | none
 # agitated.steady_revolutions = 1.0                  # without a change on the surface, until agitators become free
 

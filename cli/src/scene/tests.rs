@@ -411,6 +411,8 @@ fn numbers_out_of_range_are_named() {
         ("hybrid.moving = 0", "hybrid.moving is 0"),
         ("hybrid.projection_growth = 0.5", "projection_growth is 0.5"),
         ("hybrid.capture = [0.5, 2.0]", "capture is [0.5, 2]"),
+        ("hybrid.time_step = 0", "time_step is 0"),
+        ("hybrid.time_step = 100", "time_step is 100"),
         ("agitated.agitators = \"still\"", "turning, resting, none"),
         ("agitated.steady_revolutions = 0", "steady_revolutions is 0"),
     ] {

@@ -231,7 +231,7 @@ const STIRRED: &str = "the agitator leaves 64 particles among frozen ones where 
                        does not turn (docs/methods.md), and the paper shows curves and no number";
 const CLOSE: &str = "the gap is between two elements, where the surface of one stays ∆s from the next whatever sits there: at c/250, four times as coarse as \
                      in the paper";
-const COLLECTIVE: &str = "at this h/∆s a motion of many particles lowers the energy of a perfect lattice, and one particle sets it off (docs/lattices.md; at \
+const COLLECTIVE: &str = "at this h/∆s a motion of many particles lowers the energy of a perfect lattice, and one particle sets it off (docs/stability.md; at \
                           1.11 none does), and a periodic box lets it; the paper holds its box by fixed particles and does not say its h/∆s";
 const COARSE: &str = "less, but not ten times less; the paper shows curves and no number";
 const LAYERS: &str = "our offset layers are sampled evenly, and interpolate about as well as the hybrid method's where the middle of the body, \

@@ -39,6 +39,9 @@ pub struct Hybrid {
     pub damping: f64,
     /// C of the repulsion k_r = C ∆s p_b; Negi & Ramachandran (2021) give 0.004 … 0.006.
     pub repulsion: f64,
+    /// The time step, as a multiple of theirs (eq. 25). `docs/stability.md` has what lattices bear: some ten times as much. Close
+    /// pairs, which repulsion holds apart, bear less.
+    pub time_step: f64,
     /// What takes over where the capture phase ends; `None` goes on damping, as Negi & Ramachandran (2021) do.
     pub settling: Option<Settling>,
     /// The first of Negi & Ramachandran (2021), §3.1.9: the part of N_s that becomes boundary particles at the start,
@@ -63,6 +66,7 @@ impl Default for Hybrid {
             empty_passes: 4,
             damping: 0.2,
             repulsion: Repulsion::STRENGTH,
+            time_step: 1.0,
             settling: None,
             predicted: 0.0,
             moving_over_spacing: f64::INFINITY,
@@ -153,7 +157,7 @@ impl Hybrid {
             }
             // UpdateNeighbors, ComputeAccelerations
             forces.evaluate(&particles);
-            let dt = motion.time_step(h, zeta, 1.0);
+            let dt = self.time_step * motion.time_step(h, zeta, 1.0);
             // IntegrateParticles
             motion.advance(&mut particles, &on_surface, dt, zeta, |i| {
                 forces.acceleration(i)

@@ -1,7 +1,5 @@
 //! Which lattice to start from: what theory says of each, and what packings from it are like.
 
-mod stability;
-
 use std::fmt::Write as _;
 use std::fs;
 
@@ -11,6 +9,7 @@ use sphpack_packing::{Lattice, Silent};
 
 use crate::arguments::Arguments;
 use crate::chart::{Axis, Chart, Scale, Series};
+use crate::crystal::{UNSTABLE, softest};
 use crate::selection::Selection;
 use crate::shipped::load;
 use crate::workspace::root;
@@ -35,9 +34,6 @@ const PATIENCE: usize = 400;
 
 /// The same for every h/∆s.
 const LEVELLING: f64 = 10.0;
-
-/// Eigenvalues below this part of the greatest are negative beyond rounding.
-const UNSTABLE: f64 = -1e-9;
 
 /// How a lattice did.
 struct Trial {
@@ -161,7 +157,7 @@ fn attempt(
 ) -> Result<Trial, String> {
     let mut trial = Trial {
         lattice,
-        softest: stability::softest(lattice, kernel, h)?,
+        softest: softest(lattice, kernel, h)?,
         variation: 0.0,
         closest: f64::INFINITY,
         evaluations: 0,
