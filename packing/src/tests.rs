@@ -237,6 +237,34 @@ fn scene_units_do_not_matter() {
     }
 }
 
+/// What moves first moves from rest by ∆t² times its acceleration: four times as far in a step twice as long.
+#[test]
+fn a_longer_time_step_goes_farther() {
+    let after = |time_step: f64, max_iterations: usize| {
+        let body = Ball::new([0.0; 2], 0.5).expect("a sound ball");
+        let problem = Problem::new(Domain::new([-1.0; 2], [1.0; 2]), 0.1).body("ball", body);
+        let method = Hybrid {
+            time_step,
+            max_iterations,
+            ..Hybrid::default()
+        };
+        let packed = method.pack(&problem, &mut RunLog::new(&mut Silent));
+        packed.expect("packs").particles
+    };
+    // The first iteration captures, the second sets off.
+    let moved = |time_step: f64| {
+        let [before, then] = [1, 2].map(|iterations| after(time_step, iterations));
+        let free = (0..before.len()).filter(|&i| then.kind[i] == Kind::Free);
+        free.map(|i| point::distance(before.position[i], then.position[i]))
+            .fold(0.0, f64::max)
+    };
+    let [once, twice] = [1.0, 2.0].map(moved);
+    assert!(
+        once > 0.0 && (twice / once - 4.0).abs() < 1e-3,
+        "{once} {twice}"
+    );
+}
+
 #[test]
 fn a_box_without_bodies_is_at_rest() {
     let packed = Hybrid::default()
