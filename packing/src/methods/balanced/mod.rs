@@ -7,10 +7,10 @@ mod graded;
 pub(crate) mod parts;
 mod places;
 mod pockets;
-mod rim;
+pub(crate) mod rim;
 mod round;
 pub(crate) mod shares;
-pub(crate) mod sites;
+mod sites;
 #[cfg(test)]
 mod tests;
 

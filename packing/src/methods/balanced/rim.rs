@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::sites::deepest;
+use sphpack_neighbors::random::scrambled;
 
 /// A site that a region may have.
 #[derive(Debug, Clone, Copy)]
@@ -163,6 +163,30 @@ fn share_out<const D: usize>(
     let first = first.clamp(count.saturating_sub(above.len()), count.min(below.len()));
     share_out(below, first, take);
     share_out(above, count - first, take);
+}
+
+/// The deepest of a region's sites, `count` of them, of `sites` with their depths. Depths are compared to within 10⁻⁹ ∆s, so
+/// that neither the unit of length nor the place of the origin decides between equals.
+pub(crate) fn deepest(
+    sites: impl Iterator<Item = (usize, f64)>,
+    count: usize,
+    spacing: f64,
+    seed: u64,
+) -> Vec<usize> {
+    let mut candidates: Vec<(f64, u64, usize)> = sites
+        .map(|(i, depth)| {
+            let depth = (depth / spacing * 1e9).round();
+            (depth, scrambled(i as u64 ^ seed), i)
+        })
+        .collect();
+    // Deepest first; equals in no order that favours a side.
+    let order =
+        |a: &(f64, u64, usize), b: &(f64, u64, usize)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
+    if count < candidates.len() {
+        candidates.select_nth_unstable_by(count, order);
+        candidates.truncate(count);
+    }
+    candidates.into_iter().map(|(_, _, i)| i).collect()
 }
 
 #[cfg(test)]

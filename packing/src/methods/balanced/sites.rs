@@ -4,7 +4,6 @@ use std::cmp::Ordering;
 
 use sphpack_geometry::Closest;
 use sphpack_neighbors::Odometer;
-use sphpack_neighbors::random::scrambled;
 
 use super::places::{self, Lack};
 use super::pockets::Pockets;
@@ -210,28 +209,4 @@ fn between<const D: usize>(
         return deepest.map(|i| places[i]).into_iter().collect();
     }
     clear
-}
-
-/// The deepest of a region's sites, `count` of them, of `sites` with their depths. Depths are compared to within 10⁻⁹ ∆s, so
-/// that neither the unit of length nor the place of the origin decides between equals.
-pub(crate) fn deepest(
-    sites: impl Iterator<Item = (usize, f64)>,
-    count: usize,
-    spacing: f64,
-    seed: u64,
-) -> Vec<usize> {
-    let mut candidates: Vec<(f64, u64, usize)> = sites
-        .map(|(i, depth)| {
-            let depth = (depth / spacing * 1e9).round();
-            (depth, scrambled(i as u64 ^ seed), i)
-        })
-        .collect();
-    // Deepest first; equals in no order that favours a side.
-    let order =
-        |a: &(f64, u64, usize), b: &(f64, u64, usize)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
-    if count < candidates.len() {
-        candidates.select_nth_unstable_by(count, order);
-        candidates.truncate(count);
-    }
-    candidates.into_iter().map(|(_, _, i)| i).collect()
 }

@@ -4,8 +4,8 @@ use sphpack_geometry::GeometryError;
 
 use crate::depths::Depths;
 use crate::lattice::{Filling, Lattice};
+use crate::methods::balanced::rim::deepest;
 use crate::methods::balanced::shares::{Share, directly_inside};
-use crate::methods::balanced::sites::deepest;
 use crate::packed::ParticleSurface;
 use crate::particles::{Kind, Particles};
 use crate::problem::{PackingError, Problem};
