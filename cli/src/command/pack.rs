@@ -43,9 +43,8 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
         return dry_run(opened, arguments.quiet);
     }
     if let Some(picked) = opened.picked.as_ref().filter(|_| !arguments.quiet) {
-        for words in picked.words() {
-            let _ = writeln!(std::io::stderr(), "sphpack: {words}");
-        }
+        // A step like those that follow, no message: a refusal is one message.
+        let _ = write!(std::io::stderr(), "{}", summary::picked(picked));
     }
     let keeping = Keeping::new(arguments, &scene, &files.particles[0].0)?;
     interrupt::watch(arguments.quiet)?;
