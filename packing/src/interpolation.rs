@@ -229,17 +229,18 @@ mod tests {
             .unwrap();
         packed.particles.position[i][0] += 0.4;
         let found = packed.interpolation(KernelKind::Quintic, 1.2).unwrap();
-        assert!(found.derivative.over_lattice > 1.1, "{found:?}");
+        // One of 400, beside what the kernel smooths away; undisturbed it is 1 to 10⁻⁶.
+        assert!(found.derivative.over_lattice > 1.001, "{found:?}");
         let off = point::distance(found.derivative.worst_at, [14.0, 9.0]);
         assert!(off < 3.0, "{found:?}");
     }
 
     #[test]
     fn a_box_that_kernels_fill_is_not_measured() {
-        let domain = Domain::new([0.0; 2], [6.0; 2]).with_periodic([true; 2]);
+        let domain = Domain::new([0.0; 2], [8.0; 2]).with_periodic([true; 2]);
         let packed = Problem::new(domain, 1.0)
             .pack(&Balanced::default())
             .unwrap();
-        assert_eq!(packed.interpolation(KernelKind::Quintic, 1.2), None);
+        assert_eq!(packed.interpolation(KernelKind::Quintic, 1.6), None);
     }
 }

@@ -193,8 +193,8 @@ pub(crate) fn deepest(
 mod tests {
     use super::*;
 
-    /// Rows of a hexagonal lattice between flat sides at every height: everywhere as many sites as there is room for, to a
-    /// particle or two.
+    /// Rows of a hexagonal lattice between flat sides at every height: everywhere as many sites as there is room for, to three
+    /// in each of the four pieces that a side is cut into before it is told from the others.
     #[test]
     fn a_row_along_a_flat_side_is_in_as_much_as_its_cells_are() {
         let (across, along) = (1.0746, 0.9306);
@@ -228,7 +228,8 @@ mod tests {
                 y > low - 1.0 && y < high + 1.0
             });
             let off = here.count() as f64 - room;
-            assert!(off.abs() < 4.0, "{off} at {low}");
+            // Rows that are in or out as a whole are up to 80 off.
+            assert!(off.abs() < 13.0, "{off} at {low}");
         }
     }
 }
