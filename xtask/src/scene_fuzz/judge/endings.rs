@@ -189,8 +189,9 @@ fn refusal(case: &Case, trial: &Trial, faults: &mut Faults) {
 fn reason(case: &Case, errors: &str) -> String {
     let mut text = errors
         .lines()
-        // Warnings are no reasons, nor are the first words of progress.
+        // Warnings are no reasons, nor are the first words of progress, nor what is taken before.
         .filter(|line| !line.contains("warning:") && !line.trim_end().ends_with('…'))
+        .filter(|line| !line.trim_start().starts_with("method "))
         .collect::<Vec<_>>()
         .join(" ");
     for (k, body) in case.bodies.iter().enumerate() {
