@@ -28,19 +28,16 @@ pub(super) fn found<const D: usize>(
     least: f64,
     spacing: f64,
 ) -> Vec<[f64; D]> {
-    let mut found = aside(places, taken, &lack.beside, least, spacing);
-    if found.len() < lack.count {
-        let mut all = taken.to_vec();
-        all.extend(&found);
-        found.extend(roomiest(places, &all, lack.count - found.len(), least));
-    }
+    let taken = KdTree::new(taken).ok();
+    let mut found = aside(places, taken.as_ref(), &lack.beside, least, spacing);
+    add_roomiest(places, taken.as_ref(), &mut found, lack.count, least);
     found
 }
 
 /// For each of `wanted` the place near it that has the most room, if any has.
 fn aside<const D: usize>(
     places: &[[f64; D]],
-    taken: &[[f64; D]],
+    taken: Option<&KdTree<D>>,
     wanted: &[[f64; D]],
     least: f64,
     spacing: f64,
@@ -48,14 +45,13 @@ fn aside<const D: usize>(
     let Ok(near) = KdTree::new(places) else {
         return Vec::new();
     };
-    let others = KdTree::new(taken).ok();
     let reach = ASIDE_OVER_SPACING * spacing;
     let cell = |p: [f64; D]| -> [i64; D] { p.map(|x| (x / reach).floor() as i64) };
     let mut chosen: HashMap<[i64; D], Vec<[f64; D]>> = HashMap::new();
     let mut found = Vec::new();
     for &wanted in wanted {
         let room = |place: [f64; D]| {
-            let taken = (others.as_ref())
+            let taken = taken
                 .and_then(|tree| tree.nearest(place))
                 .map_or(reach, |hit| hit.distance.min(reach));
             let middle = cell(place);
@@ -113,24 +109,27 @@ impl PartialOrd for Room {
     }
 }
 
-/// One after another, at most `count`, the places that are farthest from all that are taken, none nearer than `least`.
-fn roomiest<const D: usize>(
+/// Adds to what is `chosen`, one after another until there are `count`, the places that are farthest from it and from all that are
+/// taken, none nearer than `least`.
+fn add_roomiest<const D: usize>(
     places: &[[f64; D]],
-    taken: &[[f64; D]],
+    taken: Option<&KdTree<D>>,
+    chosen: &mut Vec<[f64; D]>,
     count: usize,
     least: f64,
-) -> Vec<[f64; D]> {
-    let tree = KdTree::new(taken).ok();
+) {
+    if chosen.len() >= count {
+        return;
+    }
     let mut heap: BinaryHeap<Room> = (places.iter().enumerate())
         .map(|(place, &p)| Room {
-            distance: (tree.as_ref())
+            distance: taken
                 .and_then(|tree| tree.nearest(p))
                 .map_or(f64::INFINITY, |hit| hit.distance),
             place,
             known: 0,
         })
         .collect();
-    let mut chosen: Vec<[f64; D]> = Vec::new();
     while chosen.len() < count
         && let Some(room) = heap.pop()
         && room.distance >= least
@@ -148,5 +147,4 @@ fn roomiest<const D: usize>(
             ..room
         });
     }
-    chosen
 }

@@ -122,7 +122,9 @@ impl<const D: usize> Pockets<D> {
         let hit = problem.bodies[body].surface.closest(place);
         let out = PASSAGE_OVER_SPACING * problem.spacing();
         let front = point::add_scaled(hit.point, out, hit.normal);
-        (distance(problem, front) > 0.0).then(|| self.at(problem, front))?
+        (distance(problem, front) > 0.0)
+            .then(|| self.at(problem, front))
+            .flatten()
     }
 
     /// The pocket of a place in the fluid: that of the nearest site that can be seen from it.

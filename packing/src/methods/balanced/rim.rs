@@ -47,8 +47,6 @@ pub(super) fn chosen<const D: usize>(
         return candidates.iter().map(|c| c.site).collect();
     }
     let end = end(candidates, count, spacing);
-    let all = deepest(candidates.iter().map(of), count, spacing, seed);
-    let all: HashSet<usize> = all.into_iter().collect();
     let (mut kept, mut rim) = (Vec::new(), Vec::new());
     for candidate in candidates {
         let part = ramp((candidate.depth - end) / spacing);
@@ -60,11 +58,22 @@ pub(super) fn chosen<const D: usize>(
                 // To a millionth of ∆s, as depths are.
                 place: candidate.place.map(|x| (x / spacing * 1e6).round()),
                 part,
-                is_deepest: all.contains(&candidate.site),
+                is_deepest: false,
             });
         }
     }
     let left = count.saturating_sub(kept.len());
+    // All that are kept are deeper than the rim.
+    let all = deepest(
+        rim.iter().map(|rim| of(&rim.candidate)),
+        left,
+        spacing,
+        seed,
+    );
+    let all: HashSet<usize> = all.into_iter().collect();
+    for rim in &mut rim {
+        rim.is_deepest = all.contains(&rim.candidate.site);
+    }
     share_out(&mut rim, left, &mut |piece, count| {
         kept.extend(deepest(
             piece.iter().map(|rim| of(&rim.candidate)),
@@ -145,11 +154,7 @@ fn share_out<const D: usize>(
         (a.place[axis].total_cmp(&b.place[axis])).then(a.candidate.site.cmp(&b.candidate.site))
     });
     let (below, above) = piece.split_at_mut(middle);
-    // In an order of their own: the cut leaves them in none.
-    let sum = |rim: &mut [Rim<D>]| {
-        rim.sort_unstable_by_key(|rim| rim.candidate.site);
-        rim.iter().map(|rim| rim.part).sum::<f64>()
-    };
+    let sum = |rim: &[Rim<D>]| rim.iter().map(|rim| rim.part).sum::<f64>();
     let (low, high) = (sum(below), sum(above));
     let wanted = count as f64 * low / (low + high);
     let deepest = |rim: &[Rim<D>]| rim.iter().filter(|rim| rim.is_deepest).count();

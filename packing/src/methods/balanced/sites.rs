@@ -135,7 +135,9 @@ fn pocket_in_front<const D: usize>(
 ) -> Option<usize> {
     let nearest = (depths.around(site)).min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let (body, phi) = nearest?;
-    (phi <= 0.0).then(|| pockets.in_front(problem, body, place))?
+    (phi <= 0.0)
+        .then(|| pockets.in_front(problem, body, place))
+        .flatten()
 }
 
 /// Whether a site is clear of the particle surfaces around its region.
