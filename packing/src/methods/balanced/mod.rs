@@ -9,17 +9,16 @@ mod places;
 mod pockets;
 pub(crate) mod rim;
 mod round;
+mod sampled;
 pub(crate) mod shares;
 mod sites;
 #[cfg(test)]
 mod tests;
+mod tried;
 
-use std::sync::Arc;
 use std::time::Instant;
 
-use sphpack_geometry::{
-    Closest, Feature, GeometryError, InsetError, Surface, SurfaceSamples, sample_thin,
-};
+use sphpack_geometry::{Closest, Feature, InsetError};
 use sphpack_neighbors::point;
 
 use crate::depths::Depths;
@@ -31,7 +30,7 @@ use crate::minimise::{Energy, Finish, Settling};
 use crate::observer::Stage;
 use crate::packed::{Omitted, Packed, ParticleSurface, StopReason};
 use crate::particles::{Kind, Particles};
-use crate::problem::{Body, DEFAULT_INSET_OVER_SPACING, PackingError, Problem};
+use crate::problem::{Body, PackingError, Problem};
 use crate::run_log::RunLog;
 use crate::seeding::{Seeds, seed_lattice};
 pub use band::Band;
@@ -40,7 +39,9 @@ use clashes::Clash;
 use parts::Parts;
 use pockets::Pockets;
 use round::Round;
+use sampled::{Sampled, inset, is_usual, sample};
 use shares::{Held, Share};
+use tried::{Choose, Counts};
 
 /// The balanced method.
 ///
@@ -123,6 +124,18 @@ impl Balanced {
         Ok(())
     }
 
+    /// How particles settle before the last stage: what other finishes begin with is an even packing.
+    fn beginning(&self) -> Settling {
+        match self.settling.finish {
+            Finish::Even | Finish::Consistent => self.settling,
+            Finish::Calm | Finish::Both => Settling {
+                finish: Finish::Even,
+                residual_tolerance: None,
+                ..self.settling
+            },
+        }
+    }
+
     /// Packs the problem.
     ///
     /// # Errors
@@ -132,28 +145,39 @@ impl Balanced {
         problem: &Problem<D>,
         log: &mut RunLog<'_>,
     ) -> Result<Packed<D>, PackingError> {
-        let finish = self.settling.finish;
-        // What other finishes begin with is an even packing.
-        let settling = &match finish {
-            Finish::Even | Finish::Consistent => self.settling,
-            Finish::Calm | Finish::Both => Settling {
-                finish: Finish::Even,
-                residual_tolerance: None,
-                ..self.settling
-            },
-        };
+        let settling = self.beginning();
         log.begin(&Self::INFO, settling.tolerance(), settling.max_evaluations);
         self.check_in(problem)?;
         if problem.resolution.uniform().is_none() {
             return graded::pack(problem, &self.settling, log);
         }
+        self.pack_counted(problem, log, &|problem, sampled, log| {
+            tried::counts(self, problem, sampled, log)
+        })
+    }
+
+    /// Packs a problem of one spacing, with the counts that `choose` knows better than areas and volumes tell.
+    fn pack_counted<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        log: &mut RunLog<'_>,
+        choose: &Choose<'_, D>,
+    ) -> Result<Packed<D>, PackingError> {
+        let settling = &self.beginning();
         log.enter(Stage::Geometry);
         let geometry = Instant::now();
         let whole = problem;
         let parts = Parts::of(whole);
         let problem = &parts.problem;
         let spacings = vec![problem.spacing(); problem.bodies.len()];
-        let (mut surfaces, mut samples, excess) = sample(&problem.bodies, &spacings)?;
+        let mut sampled = sample(&problem.bodies, &spacings)?;
+        let counts = choose(problem, &sampled, log);
+        tried::sample_anew(&problem.bodies, &mut sampled, &counts)?;
+        let Sampled {
+            mut surfaces,
+            mut samples,
+            excess,
+        } = sampled;
         let clashes = clashes::resolve(&mut samples, &spacings);
         for (surface, points) in surfaces.iter_mut().zip(&samples) {
             surface.target_count = points.len();
@@ -164,7 +188,7 @@ impl Balanced {
 
         log.enter(Stage::Seeding);
         let seeding = Instant::now();
-        let (seeds, omitted) = place(&parts, &surfaces, (&samples, &excess), &clashes);
+        let (seeds, omitted) = place(&parts, &surfaces, (&samples, &excess), &clashes, &counts);
         let Seeds {
             mut particles,
             frozen_lattice,
@@ -256,6 +280,7 @@ fn place<const D: usize>(
     surfaces: &[ParticleSurface<D>],
     (samples, excess): (&[Vec<Closest<D>>], &[f64]),
     clashes: &[Clash],
+    counts: &[Option<Counts>],
 ) -> (Seeds<D>, Vec<Omitted<D>>) {
     let problem = &parts.problem;
     let (filling, frozen_lattice) = seed_lattice(problem);
@@ -293,6 +318,7 @@ fn place<const D: usize>(
             points: samples[part].len(),
             removed: clashes[part].removed,
             excess: excess[part],
+            inside: counts[part].map(|counts| counts.inside),
             reaches: reaches(
                 &problem.bodies,
                 part,
@@ -407,86 +433,4 @@ fn reaches<const D: usize>(
     }
     reaches.extend((beyond.into_iter().enumerate()).filter(|(_, count)| *count > 0.0));
     reaches
-}
-
-/// Whether a body is packed without a particle surface where it is too thin for one. A deeper surface than usual is asked
-/// for as it is.
-fn is_usual<const D: usize>(body: &Body<D>) -> bool {
-    body.inset_over_spacing <= DEFAULT_INSET_OVER_SPACING
-}
-
-/// A body's particle surface for particles of a spacing, `None` where it is so thin that it has none; the surface itself where that
-/// is asked for.
-fn inset<const D: usize>(
-    body: &Body<D>,
-    spacing: f64,
-) -> Result<Option<Arc<dyn Surface<D>>>, PackingError> {
-    let depth = body.inset_over_spacing * spacing;
-    if depth == 0.0 {
-        return Ok(Some(body.surface.clone()));
-    }
-    match body.surface.inset(depth) {
-        Ok(inset) => Ok(Some(inset)),
-        Err(GeometryError::Inset(InsetError::Vanished { .. })) => Ok(None),
-        Err(source) => Err(PackingError::Surface {
-            body: body.name.clone(),
-            error: source,
-        }),
-    }
-}
-
-type Sampled<const D: usize> = (Vec<ParticleSurface<D>>, Vec<Vec<Closest<D>>>, Vec<f64>);
-
-/// Every particle surface with its points, for particles of a spacing for each, and the volume that these stand for beyond the body's. Points in the middle of parts that are too thin to have a surface count as
-/// corners: they stay where they are.
-fn sample<const D: usize>(
-    bodies: &[Body<D>],
-    spacings: &[f64],
-) -> Result<Sampled<D>, PackingError> {
-    let mut surfaces = Vec::new();
-    let mut samples = Vec::new();
-    let mut excess = Vec::new();
-    for (body, &spacing) in bodies.iter().zip(spacings) {
-        let fail = |source| PackingError::Surface {
-            body: body.name.clone(),
-            error: source,
-        };
-        let depth = body.inset_over_spacing * spacing;
-        let is_usual = is_usual(body);
-        let inset = inset(body, spacing)?;
-        let found = match &inset {
-            // A body that fills the box has no surface in it.
-            Some(surface) if !is_usual && surface.measure() <= 0.0 => Ok(SurfaceSamples::default()),
-            Some(surface) if !is_usual => {
-                let count = surface.measure() / spacing.powi(D as i32 - 1);
-                surface
-                    .sample(count.round().max(1.0) as usize)
-                    .map(|on_surface| SurfaceSamples {
-                        on_surface,
-                        ..SurfaceSamples::default()
-                    })
-            }
-            _ => sample_thin(
-                body.surface.as_ref(),
-                inset.as_deref(),
-                spacing,
-                depth,
-                body.thin,
-            ),
-        }
-        .map_err(fail)?;
-        let mut points = found.on_surface;
-        points.extend(found.medial.into_iter().map(|point| Closest {
-            feature: Feature::Corner,
-            point,
-            ..body.surface.closest(point)
-        }));
-        surfaces.push(ParticleSurface {
-            surface: inset.unwrap_or_else(|| body.surface.clone()),
-            target_count: points.len(),
-        });
-        samples.push(points);
-        excess.push(found.excess);
-    }
-    Ok((surfaces, samples, excess))
 }

@@ -77,6 +77,8 @@ pub(super) struct Held<'a, const D: usize> {
     pub(super) removed: usize,
     /// The volume that they stand for beyond the body's own.
     pub(super) excess: f64,
+    /// Its own particles beside them, where that is known otherwise than by its volume; all share that evenly then.
+    pub(super) inside: Option<usize>,
     /// How much of its surface particles is in which region, in particles: its own, and what lies beyond an exact surface.
     pub(super) reaches: Vec<(usize, f64)>,
 }
@@ -136,11 +138,14 @@ pub(super) fn shares<const D: usize>(
     let is_full: Vec<bool> = (0..parts)
         .map(|part| {
             let fit = fit(part, &surface_volume);
-            (fit == 0 || fit > most[part]) && held[part].points > 0
+            (fit == 0 || fit > most[part] || held[part].inside.is_some()) && held[part].points > 0
         })
         .collect();
     let own: Vec<usize> = (0..parts)
-        .map(|part| fit(part, &surface_volume).min(most[part]))
+        .map(|part| {
+            let asked = (held[part].inside).unwrap_or_else(|| fit(part, &surface_volume));
+            asked.min(most[part])
+        })
         .collect();
     for _ in 0..ROUNDS {
         for part in (0..parts).filter(|&part| is_full[part]) {

@@ -147,11 +147,10 @@ fn sample<const D: usize>(problem: &Problem<D>) -> Result<Sampled<D>, PackingErr
         );
         sampled.along.push(along);
         if along.is_uniform {
-            let (surfaces, samples, excess) =
-                super::sample(std::slice::from_ref(body), &[along.mean])?;
-            sampled.surfaces.extend(surfaces);
-            sampled.samples.extend(samples);
-            sampled.excess.extend(excess);
+            let uniform = super::sample(std::slice::from_ref(body), &[along.mean])?;
+            sampled.surfaces.extend(uniform.surfaces);
+            sampled.samples.extend(uniform.samples);
+            sampled.excess.extend(uniform.excess);
             continue;
         }
         let inset = FollowingInset::new(body, &problem.resolution, along);
@@ -279,6 +278,7 @@ fn place<const D: usize>(
             points: samples[part].len(),
             removed: clashes[part].removed,
             excess: excess[part],
+            inside: None,
             reaches: reaches(
                 &problem.bodies,
                 part,
