@@ -30,8 +30,11 @@ pub(super) struct Counts {
 pub(super) type Choose<'a, const D: usize> =
     dyn Fn(&Problem<D>, &Sampled<D>, &mut RunLog<'_>) -> Vec<Option<Counts>> + 'a;
 
-/// Parts of more than this, in ∆s^D, have the particles to even out.
-const MOST_VOLUME: f64 = 40.0;
+/// Parts wider than this on the whole, in ∆s, have the room to even out: the volume over half the particle surface's length.
+const WIDEST: f64 = 3.6;
+
+/// Parts of more than this, in ∆s^D, are too dear to try.
+const MOST_VOLUME: f64 = 300.0;
 
 /// The room around a part that is packed alone, in ∆s.
 const AROUND: f64 = 4.0;
@@ -56,9 +59,13 @@ const AGAIN: u64 = 2;
 /// Evaluations after which a try is none.
 const EVALUATIONS: usize = 200;
 
-/// How many points more and fewer on a surface are tried.
+/// How many points more and fewer on a surface are tried, in steps of one or of this part of all.
 const MORE: usize = 2;
 const FEWER: usize = 4;
+const STEP: f64 = 0.05;
+
+/// Particles of a part from one try to the next: one, or this part of all.
+const VOLUME_STEP: f64 = 0.03;
 
 /// The volumes of a particle that are tried, in ∆s^D.
 const VOLUMES: [f64; 2] = [0.8, 1.6];
@@ -136,10 +143,11 @@ fn is_small<const D: usize>(problem: &Problem<D>, sampled: &Sampled<D>, part: us
     let bounds = body.surface.bounds();
     let spacing = problem.spacing();
     let length = sampled.surfaces[part].surface.measure() / spacing.powi(D as i32 - 1);
+    let volume = body.surface.volume() / spacing.powi(D as i32);
     body.inset_over_spacing == DEFAULT_INSET_OVER_SPACING
         && body.surface.window().is_none()
         && problem.domain.bounds.contains_box(&bounds)
-        && body.surface.volume() <= MOST_VOLUME * spacing.powi(D as i32)
+        && volume <= MOST_VOLUME.min(0.5 * WIDEST * length)
         && sampled.excess[part] == 0.0
         // Thin parts get other counts than their length asks for.
         && sampled.samples[part].len() == length.round() as usize
@@ -232,9 +240,14 @@ fn candidates<const D: usize>(alone: &Problem<D>, usual: usize) -> Vec<Counts> {
         return Vec::new();
     };
     let corners = surface.features().corners.len();
-    let fewest = usual.saturating_sub(FEWER).max(corners).max(1);
+    let step = ((STEP * usual as f64).round() as usize).max(1);
+    let fewest = usual.saturating_sub(FEWER * step);
+    let volume_step = ((VOLUME_STEP * volume).round() as usize).max(1);
     let mut candidates = Vec::new();
-    for on_surface in fewest..=usual + MORE {
+    for on_surface in (fewest..=usual + MORE * step).step_by(step) {
+        if on_surface < corners.max(1) {
+            continue;
+        }
         let is_apart = |points: Vec<Closest<D>>| {
             (points.iter().enumerate()).all(|(i, a)| {
                 (points[..i].iter()).all(|b| point::distance(a.point, b.point) >= APART * spacing)
@@ -244,7 +257,7 @@ fn candidates<const D: usize>(alone: &Problem<D>, usual: usize) -> Vec<Counts> {
             continue;
         }
         let all = (volume / VOLUMES[1]).ceil() as usize..=(volume / VOLUMES[0]).floor() as usize;
-        for all in all.filter(|&all| all >= on_surface) {
+        for all in all.step_by(volume_step).filter(|&all| all >= on_surface) {
             candidates.push(Counts {
                 on_surface,
                 inside: all - on_surface,
