@@ -33,23 +33,29 @@ pub(super) type Choose<'a, const D: usize> =
 /// Parts wider than this on the whole, in ∆s, have the room to even out: the volume over half the particle surface's length.
 const WIDEST: f64 = 3.6;
 
-/// Parts of more than this, in ∆s^D, are too dear to try.
-const MOST_VOLUME: f64 = 300.0;
+/// Parts of more than this, in ∆s^D, are too dear to try; in the plane and in space.
+const MOST_VOLUME: [f64; 2] = [300.0, 100.0];
 
-/// The room around a part that is packed alone, in ∆s.
-const AROUND: f64 = 4.0;
+/// The room around a part that is packed alone, in ∆s, in the plane and in space.
+const AROUND: [f64; 2] = [4.0, 3.0];
 
-/// The particles of all tries together, beside as many as the whole problem has: so many settle in a second or two.
-const PARTICLES: f64 = 100_000.0;
+/// The particles of all tries together, beside as many as the whole problem has: so many settle in two to five seconds, in the plane
+/// and in space.
+const PARTICLES: [f64; 2] = [100_000.0, 15_000.0];
+
+/// Lengths of parts of one shape differ by less than this, in ∆s.
+const SAME: f64 = 1e-6;
 
 /// Parts between which an end is looked for.
 const AT_ONCE: usize = 16;
 
-/// What the usual counts have to reach to be kept, and others to be taken at once; the best of those tried must otherwise be better
-/// than the usual ones by a little. Neighbours cost some of it: what is asked of a packing is L∞ ≤ 0.5 % and pairs 0.8 ∆s apart.
-const EVEN: f64 = 0.92;
-const VERY_EVEN: f64 = 0.88;
+/// What the usual counts have to reach to be kept, and others to be taken at once; the best of those tried must otherwise be
+/// better than the usual ones by a little where it reaches 1, or by much. Neighbours cost some of it: 1 is L∞ = 0.5 % or a pair
+/// 0.8 ∆s apart.
+const EVEN: [f64; 2] = [0.92, 0.97];
+const VERY_EVEN: [f64; 2] = [0.88, 0.92];
 const WORTH: f64 = 0.98;
+const MUCH: f64 = 0.8;
 const LINF: f64 = 0.005;
 const APART: f64 = 0.8;
 
@@ -67,11 +73,12 @@ const STEP: f64 = 0.05;
 /// Particles of a part from one try to the next: one, or this part of all.
 const VOLUME_STEP: f64 = 0.03;
 
-/// The volumes of a particle that are tried, in ∆s^D.
-const VOLUMES: [f64; 2] = [0.8, 1.6];
+/// The volumes of a particle that are tried, in ∆s^D: in a part of volume V from the first to the second and the third over V. Larger
+/// ones can be evener still, but who asks for a spacing wants it.
+const VOLUMES: [f64; 3] = [0.8, 1.2, 2.5];
 
-/// The counts of every part, `None` where the usual ones are best or nothing was tried: in space, where a try costs as much as a
-/// small packing; of large and thin parts, and of those that hold others.
+/// The counts of every part, `None` where the usual ones are best or nothing was tried: of large and thin parts, of those that hold
+/// others, and where sides are periodic.
 pub(super) fn counts<const D: usize>(
     method: &Balanced,
     problem: &Problem<D>,
@@ -79,7 +86,7 @@ pub(super) fn counts<const D: usize>(
     log: &mut RunLog<'_>,
 ) -> Vec<Option<Counts>> {
     let mut counts = vec![None; problem.bodies.len()];
-    if D != 2 || problem.domain.is_periodic() {
+    if problem.domain.is_periodic() {
         return counts;
     }
     let method = Balanced {
@@ -97,9 +104,15 @@ pub(super) fn counts<const D: usize>(
         .collect();
     let size =
         |bounds: sphpack_neighbors::Bounds<D>| bounds.volume() / problem.spacing().powi(D as i32);
+    let like = first_of_its_shape(problem, sampled, &small);
+    let firsts: Vec<usize> = (small.iter().zip(&like))
+        .filter(|(part, like)| part == like)
+        .map(|(&part, _)| part)
+        .collect();
     // The same for every part, so that the result does not depend on who is first.
-    let each = (PARTICLES + size(problem.domain.bounds)) / small.len().max(1) as f64;
-    for parts in small.chunks(AT_ONCE) {
+    let each =
+        (PARTICLES[usize::from(D == 3)] + size(problem.domain.bounds)) / firsts.len().max(1) as f64;
+    for parts in firsts.chunks(AT_ONCE) {
         log.tell();
         if log.interrupted {
             break;
@@ -115,7 +128,38 @@ pub(super) fn counts<const D: usize>(
             counts[part] = found;
         }
     }
+    for (&part, &like) in small.iter().zip(&like) {
+        counts[part] = counts[like];
+    }
     counts
+}
+
+/// For every one of some parts the first that is as large and as long to every side, and has a surface as large: a grid of equal
+/// parts is tried once.
+fn first_of_its_shape<const D: usize>(
+    problem: &Problem<D>,
+    sampled: &Sampled<D>,
+    parts: &[usize],
+) -> Vec<usize> {
+    let figures = |part: usize| -> Vec<f64> {
+        let surface = problem.bodies[part].surface.as_ref();
+        let mut figures = surface.bounds().size().to_vec();
+        figures.push(surface.volume().powf(1.0 / D as f64));
+        figures.push(surface.measure().powf(1.0 / (D as f64 - 1.0)));
+        figures.push(sampled.samples[part].len() as f64 * problem.spacing());
+        figures
+    };
+    let figures: Vec<Vec<f64>> = parts.iter().map(|&part| figures(part)).collect();
+    let is_like = |a: &[f64], b: &[f64]| {
+        (a.iter().zip(b)).all(|(a, b)| (a - b).abs() <= SAME * problem.spacing())
+    };
+    (0..parts.len())
+        .map(|i| {
+            parts[(0..=i)
+                .find(|&j| is_like(&figures[j], &figures[i]))
+                .unwrap_or(i)]
+        })
+        .collect()
 }
 
 /// Spreads the points of parts with counts of their own.
@@ -147,7 +191,7 @@ fn is_small<const D: usize>(problem: &Problem<D>, sampled: &Sampled<D>, part: us
     body.inset_over_spacing == DEFAULT_INSET_OVER_SPACING
         && body.surface.window().is_none()
         && problem.domain.bounds.contains_box(&bounds)
-        && volume <= MOST_VOLUME.min(0.5 * WIDEST * length)
+        && volume <= MOST_VOLUME[usize::from(D == 3)].min(0.5 * WIDEST * length)
         && sampled.excess[part] == 0.0
         // Thin parts get other counts than their length asks for.
         && sampled.samples[part].len() == length.round() as usize
@@ -157,7 +201,10 @@ fn is_small<const D: usize>(problem: &Problem<D>, sampled: &Sampled<D>, part: us
 /// even alone was not among its neighbours.
 fn alone<const D: usize>(problem: &Problem<D>, part: usize) -> Problem<D> {
     let body = problem.bodies[part].clone();
-    let mut bounds = body.surface.bounds().grown(AROUND * problem.spacing());
+    let mut bounds = body
+        .surface
+        .bounds()
+        .grown(AROUND[usize::from(D == 3)] * problem.spacing());
     let (cell, origin) = (problem.filling().cell(), problem.domain.bounds.min);
     for k in 0..D {
         let cells = |place: f64| (place - origin[k]) / cell[k];
@@ -187,10 +234,10 @@ fn best<const D: usize>(
         return None;
     }
     let with_usual = unevenness(method, alone, None);
-    if with_usual <= EVEN {
+    if with_usual <= EVEN[usize::from(D == 3)] {
         return None;
     }
-    let mut best = (WORTH * with_usual, None);
+    let mut best = ((WORTH * with_usual).min((MUCH * with_usual).max(1.0)), None);
     for counts in candidates(alone, usual.len()).into_iter().take(tries - 1) {
         let mut found = unevenness(method, alone, Some(counts));
         // Seven particles in a square of 2.6 ∆s were even in a try, and 0.65 ∆s apart among neighbours: luck of the sites.
@@ -206,7 +253,7 @@ fn best<const D: usize>(
         if found < best.0 {
             best = (found, Some(counts));
         }
-        if found <= VERY_EVEN {
+        if found <= VERY_EVEN[usize::from(D == 3)] {
             break;
         }
     }
@@ -256,7 +303,8 @@ fn candidates<const D: usize>(alone: &Problem<D>, usual: usize) -> Vec<Counts> {
         if !surface.sample(on_surface).is_ok_and(is_apart) {
             continue;
         }
-        let all = (volume / VOLUMES[1]).ceil() as usize..=(volume / VOLUMES[0]).floor() as usize;
+        let largest = VOLUMES[1] + VOLUMES[2] / volume;
+        let all = (volume / largest).ceil() as usize..=(volume / VOLUMES[0]).floor() as usize;
         for all in all.step_by(volume_step).filter(|&all| all >= on_surface) {
             candidates.push(Counts {
                 on_surface,
