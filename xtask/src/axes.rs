@@ -142,11 +142,30 @@ impl<'a> Frame<'a> {
 
 /// A tick's number.
 fn number(value: f64) -> String {
-    if value != 0.0 && (value.abs() < 1e-2 || value.abs() >= 1e5) {
-        format!("{value:.0e}")
+    let text = if value != 0.0 && (value.abs() < 1e-2 || value.abs() >= 1e5) {
+        power_of_ten(&format!("{value:.0e}"))
     } else {
         let text = format!("{value:.3}");
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
+    text.replace('-', "−")
+}
+
+/// "2e-3" as people write it: 2·10⁻³, and 10⁻³ for "1e-3".
+fn power_of_ten(text: &str) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let Some((digit, power)) = text.split_once('e') else {
+        return text.to_owned();
+    };
+    let raised = power.chars().map(|sign| match sign.to_digit(10) {
+        Some(digit) => RAISED[digit as usize],
+        None => '⁻',
+    });
+    let power = format!("10{}", raised.collect::<String>());
+    match digit {
+        "1" => power,
+        "-1" => format!("-{power}"),
+        _ => format!("{digit}·{power}"),
     }
 }
 
@@ -156,6 +175,12 @@ mod tests {
 
     fn axes() -> [Axis; 2] {
         [Scale::Linear, Scale::Logarithmic].map(|scale| Axis { title: "x", scale })
+    }
+
+    #[test]
+    fn numbers_are_as_people_write_them() {
+        let written = [0.0, -0.5, 12_000.0, 1e-3, -2e-10, 3e5].map(number);
+        assert_eq!(written, ["0", "−0.5", "12000", "10⁻³", "−2·10⁻¹⁰", "3·10⁵"]);
     }
 
     #[test]
@@ -170,7 +195,7 @@ mod tests {
         }
         let mut out = String::new();
         frame.draw(&mut out);
-        for text in [">0<", ">5<", ">1<", ">1e5<"] {
+        for text in [">0<", ">5<", ">1<", ">10⁵<"] {
             assert!(out.contains(text), "{out} lacks {text}");
         }
     }

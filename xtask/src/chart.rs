@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use crate::axes::Frame;
 pub(crate) use crate::axes::{Axis, Scale};
+use crate::drawing::{self, CIRCLE, DIAMOND, DOWN, SQUARE, UP};
 
 /// A curve or a cloud of points, and its name in the legend.
 pub(crate) struct Series {
@@ -23,10 +24,12 @@ pub(crate) struct Chart {
 const SIZE: [f64; 2] = [820.0, 480.0];
 const ROOM: [f64; 4] = [78.0, 170.0, 40.0, 56.0];
 
-/// Told apart also by who does not see red or green (Okabe and Ito's palette), then with hollow marks.
+/// Told apart also by who does not see red or green (Okabe and Ito's palette), in print by their marks; then with hollow ones.
 const COLOURS: [&str; 7] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555",
 ];
+
+const MARKS: [&str; 5] = [CIRCLE, SQUARE, UP, DIAMOND, DOWN];
 
 impl Chart {
     /// The numbers, a line each: series, x, y.
@@ -50,17 +53,18 @@ impl Chart {
             .collect();
         let (end, floor) = (width - right, height - bottom);
         let frame = Frame::new(&self.axes, [left, top, end, floor], &points);
-        let mut out = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n\
-             <text x=\"{left}\" y=\"24\" font-size=\"16\">{}</text>\n",
+        let mut out = drawing::begin(width, height);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            out,
+            "<text x=\"{left}\" y=\"24\" font-size=\"16\">{}</text>",
             self.title
         );
         frame.draw(&mut out);
-        // Writing to a string cannot fail.
         for (i, series) in self.series.iter().enumerate() {
             let colour = COLOURS[i % COLOURS.len()];
             let fill = if i < COLOURS.len() { colour } else { "white" };
+            let mark = MARKS[i % MARKS.len()];
             let places: Vec<[f64; 2]> = (series.points.iter())
                 .map(|&point| frame.at(point))
                 .filter(|p| p.iter().all(|v| v.is_finite()))
@@ -80,7 +84,7 @@ impl Chart {
             for p in places.iter().chain([&legend]) {
                 let _ = writeln!(
                     out,
-                    "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"4.5\" fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1.5\"/>",
+                    "<path transform=\"translate({:.1} {:.1})\" d=\"{mark}\" fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1.5\"/>",
                     p[0], p[1]
                 );
             }

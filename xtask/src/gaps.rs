@@ -5,6 +5,7 @@ use std::fs;
 
 use sphpack_packing::Particles;
 
+use crate::drawing;
 use crate::relaxed_airfoils::{Airfoil, Figures, SPACING, Way, airfoils, trailing_edge};
 use crate::selection::Selection;
 use crate::workspace::root;
@@ -89,12 +90,7 @@ fn picture(airfoil: &Airfoil, panels: &[(String, Particles<2>)]) -> String {
         ]
     };
     let whole = (width + 12.0) * panels.len() as f64;
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {whole} {}\" font-family=\"sans-serif\" font-size=\"13\">\n\
-         <rect width=\"{whole}\" height=\"{}\" fill=\"white\"/>\n",
-        height + 28.0,
-        height + 28.0
-    );
+    let mut out = drawing::begin(whole, height + 28.0);
     for (n, (title, particles)) in panels.iter().enumerate() {
         // Writing to a string cannot fail.
         let _ = writeln!(

@@ -76,7 +76,7 @@ fn first_body(subject: &Subject<'_>) -> Option<u16> {
     subject.table.body.iter().flatten().min().copied()
 }
 
-/// Draws the slice into a box of the sheet.
+/// Draws the slice into a box of the sheet, and below it what it shows and how long things are in it.
 pub(super) fn add(
     sheet: &mut Sheet,
     subject: &Subject<'_>,
@@ -148,6 +148,7 @@ pub(super) fn add(
             rounded(cut.at, subject.spacing)
         ),
     );
+    sheet.length_bar([left, top + size + 62.0], 0.25 * size, zoom);
 }
 
 /// A place to a hundredth of a spacing.
