@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use sphpack::picture::text_width;
+
 use crate::axes::Frame;
 pub(crate) use crate::axes::{Axis, Scale};
 use crate::drawing::{self, CIRCLE, DIAMOND, DOWN, SQUARE, UP};
@@ -48,6 +50,8 @@ impl Chart {
     pub(crate) fn svg(&self) -> String {
         let [left, right, top, bottom] = ROOM;
         let [width, height] = SIZE;
+        let names = self.series.iter().map(|s| text_width(&s.name, 13.0));
+        let right = right.max(36.0 + names.fold(0.0, f64::max));
         let points: Vec<[f64; 2]> = (self.series.iter())
             .flat_map(|series| series.points.iter().copied())
             .collect();

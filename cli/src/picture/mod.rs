@@ -16,6 +16,7 @@ mod svg;
 mod tests;
 
 pub use font::{FAMILY as FONT_FAMILY, width as text_width};
+pub use png::write as write_png;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -84,7 +85,10 @@ impl PictureFormat {
 pub fn draw(subject: &Subject<'_>, format: PictureFormat, to: &mut dyn Write) -> io::Result<()> {
     match format {
         PictureFormat::Svg => svg::write(&plane::sheet(subject), to),
-        PictureFormat::Png => png::write(&painted(subject), to),
+        PictureFormat::Png => {
+            let canvas = painted(subject);
+            png::write(canvas.width as u32, &canvas.pixels, to)
+        }
     }
 }
 

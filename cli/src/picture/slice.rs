@@ -143,9 +143,11 @@ pub(super) fn add(
         LABEL,
         Anchor::Middle,
         format!(
-            "slice {} = {}; rings: solid, thick ones: surface",
+            "slice {} = {}, {} right, {} up; rings: solid, thick ones: surface",
             AXES[cut.axis],
-            rounded(cut.at, subject.spacing)
+            rounded(cut.at, subject.spacing),
+            AXES[h],
+            AXES[v]
         ),
     );
     sheet.length_bar([left, top + size + 62.0], 0.25 * size, zoom);
