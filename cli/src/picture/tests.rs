@@ -157,29 +157,32 @@ fn thousands_are_set_apart() {
     );
 }
 
+/// Titles, and the numbers beside the colours: with many letters, wide ones, or many digits.
 #[test]
-fn titles_end_on_the_sheet() {
-    let table = table(2);
-    for (name, is_unfinished) in [
-        ("a", false),
-        ("bends", true),
-        ("as-long-as-a-name-is-shown-here", true),
-    ] {
+fn texts_end_on_the_sheet() {
+    for (name, off) in [("a", 1e-2), ("bends", 1e-11), (&"W".repeat(40), 1e-3)] {
+        let mut table = table(2);
+        for (gamma, [x, ..]) in table.gamma.iter_mut().zip(&table.position) {
+            *gamma = 1.0 + off * x;
+        }
         let subject = Subject {
             name,
             table: &table,
             loops: &[],
             domain: [[-0.5; 3], [0.5; 3]],
             spacing: 0.012_345,
-            is_unfinished,
+            is_unfinished: true,
         };
         let sheet = plane::sheet(&subject);
-        let end = sheet.marks.iter().find_map(|mark| match mark {
-            marks::Mark::Text { at, size, text, .. } if text.contains("max") => {
-                Some(at[0] + font::width(text, *size))
+        let mut count = 0;
+        for mark in &sheet.marks {
+            if let marks::Mark::Text { at, size, text, .. } = mark {
+                let end = at[0] + font::width(text, *size);
+                assert!(end <= sheet.width as f64, "{text} ends at {end}");
+                count += 1;
             }
-            _ => None,
-        });
-        assert!(end.is_some_and(|end| end <= sheet.width as f64), "{end:?}");
+        }
+        // The title, the bar's name and numbers, two kinds, a length.
+        assert_eq!(count, 1 + 6 + 2 + 1);
     }
 }
