@@ -85,7 +85,12 @@ impl Chart {
                 );
             }
             let legend = [end + 16.0, top + 10.0 + 22.0 * i as f64];
-            for p in places.iter().chain([&legend]) {
+            let marks = if series.joined {
+                apart(&places)
+            } else {
+                places
+            };
+            for p in marks.iter().chain([&legend]) {
                 let _ = writeln!(
                     out,
                     "<path transform=\"translate({:.1} {:.1})\" d=\"{mark}\" fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1.5\"/>",
@@ -102,5 +107,64 @@ impl Chart {
         }
         out.push_str("</svg>\n");
         out
+    }
+}
+
+/// Of places along a curve those that are so far from the one before, pixels, that marks do not hide the curve.
+fn apart(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    const STEP: f64 = 10.0;
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    for &[x, y] in places {
+        if kept
+            .last()
+            .is_none_or(|p| (x - p[0]).hypot(y - p[1]) >= STEP)
+        {
+            kept.push([x, y]);
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chart(points: Vec<[f64; 2]>, joined: bool) -> String {
+        let axis = |title| Axis {
+            title,
+            scale: Scale::Linear,
+        };
+        let name = "a name that is longer than the room for it".to_owned();
+        Chart {
+            title: "title",
+            axes: [axis("x"), axis("y")],
+            series: vec![Series {
+                name,
+                points,
+                joined,
+            }],
+        }
+        .svg()
+    }
+
+    #[test]
+    fn legends_end_on_the_sheet() {
+        let svg = chart(vec![[0.0, 1.0]], false);
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let legend = document.descendants().find(|node| {
+            node.text()
+                .is_some_and(|text| text.starts_with("a name that"))
+        });
+        let legend = legend.unwrap();
+        let at: f64 = legend.attribute("x").unwrap().parse().unwrap();
+        assert!(at + text_width(legend.text().unwrap(), 13.0) <= SIZE[0]);
+    }
+
+    #[test]
+    fn marks_of_a_curve_stand_apart() {
+        let points: Vec<[f64; 2]> = (0..=1000).map(|k| [f64::from(k), 0.0]).collect();
+        let count = |joined| chart(points.clone(), joined).matches(CIRCLE).count();
+        assert_eq!(count(false), 1001 + 1);
+        assert!((10..60).contains(&count(true)), "{}", count(true));
     }
 }
