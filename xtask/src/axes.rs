@@ -41,7 +41,8 @@ impl Axis {
                         .into_iter()
                         .find(|s| s * power >= rough)
                         .unwrap_or(10.0);
-                let (from, to) = ((low / step).floor(), (high / step).ceil());
+                // What is off a tick by rounding is on it.
+                let (from, to) = ((low / step + 1e-9).floor(), (high / step - 1e-9).ceil());
                 let ticks = (from as i64..=to as i64).map(|i| i as f64 * step);
                 ([from * step, to.max(from + 1.0) * step], ticks.collect())
             }
@@ -142,11 +143,30 @@ impl<'a> Frame<'a> {
 
 /// A tick's number.
 fn number(value: f64) -> String {
-    if value != 0.0 && (value.abs() < 1e-2 || value.abs() >= 1e5) {
-        format!("{value:.0e}")
+    let text = if value != 0.0 && (value.abs() < 1e-2 || value.abs() >= 1e5) {
+        power_of_ten(&format!("{value:.0e}"))
     } else {
         let text = format!("{value:.3}");
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
+    text.replace('-', "−")
+}
+
+/// "2e-3" as people write it: 2·10⁻³, and 10⁻³ for "1e-3".
+fn power_of_ten(text: &str) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let Some((digit, power)) = text.split_once('e') else {
+        return text.to_owned();
+    };
+    let raised = power.chars().map(|sign| match sign.to_digit(10) {
+        Some(digit) => RAISED[digit as usize],
+        None => '⁻',
+    });
+    let power = format!("10{}", raised.collect::<String>());
+    match digit {
+        "1" => power,
+        "-1" => format!("-{power}"),
+        _ => format!("{digit}·{power}"),
     }
 }
 
@@ -159,18 +179,24 @@ mod tests {
     }
 
     #[test]
+    fn numbers_are_as_people_write_them() {
+        let written = [0.0, -0.5, 12_000.0, 1e-3, -2e-10, 3e5].map(number);
+        assert_eq!(written, ["0", "−0.5", "12000", "10⁻³", "−2·10⁻¹⁰", "3·10⁵"]);
+    }
+
+    #[test]
     fn points_lie_within_the_frame_and_ends_at_ticks() {
-        let (axes, points) = (axes(), [[0.3, 2.0], [4.7, 3e4]]);
+        let (axes, points) = (axes(), [[-1e-15, 2.0], [4.7, 3e4]]);
         let frame = Frame::new(&axes, [10.0, 20.0, 110.0, 220.0], &points);
         assert_eq!(frame.at([0.0, 1.0]), [10.0, 220.0]);
         assert_eq!(frame.at([5.0, 1e5]), [110.0, 20.0]);
         for point in points {
             let [x, y] = frame.at(point);
-            assert!((10.0..=110.0).contains(&x) && (20.0..=220.0).contains(&y));
+            assert!((9.9..=110.0).contains(&x) && (20.0..=220.0).contains(&y));
         }
         let mut out = String::new();
         frame.draw(&mut out);
-        for text in [">0<", ">5<", ">1<", ">1e5<"] {
+        for text in [">0<", ">5<", ">1<", ">10⁵<"] {
             assert!(out.contains(text), "{out} lacks {text}");
         }
     }

@@ -5,6 +5,7 @@ use std::fs;
 
 use sphpack_packing::Particles;
 
+use crate::drawing;
 use crate::relaxed_airfoils::{Airfoil, Figures, SPACING, Way, airfoils, trailing_edge};
 use crate::selection::Selection;
 use crate::workspace::root;
@@ -77,6 +78,13 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
 const HALF: [f64; 2] = [8.0, 6.0];
 const PIXELS: f64 = 20.0;
 
+/// Room for the titles above the panels, and for what marks mean below them.
+const HEAD_ROOM: f64 = 28.0;
+const FOOT_ROOM: f64 = 30.0;
+
+/// Solid and fluid particles.
+const COLOURS: [&str; 2] = ["#d55e00", "#56b4e9"];
+
 /// The packings around the trailing edge, side by side.
 fn picture(airfoil: &Airfoil, panels: &[(String, Particles<2>)]) -> String {
     let edge = trailing_edge(&airfoil.elements[0]);
@@ -89,17 +97,12 @@ fn picture(airfoil: &Airfoil, panels: &[(String, Particles<2>)]) -> String {
         ]
     };
     let whole = (width + 12.0) * panels.len() as f64;
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {whole} {}\" font-family=\"sans-serif\" font-size=\"13\">\n\
-         <rect width=\"{whole}\" height=\"{}\" fill=\"white\"/>\n",
-        height + 28.0,
-        height + 28.0
-    );
+    let mut out = drawing::begin(whole, height + HEAD_ROOM + FOOT_ROOM);
     for (n, (title, particles)) in panels.iter().enumerate() {
         // Writing to a string cannot fail.
         let _ = writeln!(
             out,
-            "<svg x=\"{}\" y=\"28\" width=\"{width}\" height=\"{height}\"><rect width=\"{width}\" height=\"{height}\" fill=\"#f4f4f4\"/>",
+            "<svg x=\"{}\" y=\"{HEAD_ROOM}\" width=\"{width}\" height=\"{height}\"><rect width=\"{width}\" height=\"{height}\" fill=\"#f4f4f4\"/>",
             (width + 12.0) * n as f64
         );
         let way: Vec<String> = (airfoil.elements[0].points().iter())
@@ -121,7 +124,7 @@ fn picture(airfoil: &Airfoil, panels: &[(String, Particles<2>)]) -> String {
                     "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"8\" fill=\"{}\"/>",
                     p[0],
                     p[1],
-                    if is_solid { "#d55e00" } else { "#56b4e9" }
+                    COLOURS[usize::from(!is_solid)]
                 );
             }
         }
@@ -131,6 +134,25 @@ fn picture(airfoil: &Airfoil, panels: &[(String, Particles<2>)]) -> String {
             (width + 12.0) * n as f64 + 4.0
         );
     }
+    let y = height + HEAD_ROOM + 17.0;
+    for (x, colour, words) in [(12.0, COLOURS[0], "solid"), (90.0, COLOURS[1], "fluid")] {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            out,
+            "<circle cx=\"{x}\" cy=\"{y}\" r=\"8\" fill=\"{colour}\"/><text x=\"{}\" y=\"{}\">{words}</text>",
+            x + 14.0,
+            y + 4.5
+        );
+    }
+    let end = 170.0 + 2.0 * PIXELS;
+    let _ = writeln!(
+        out,
+        "<path d=\"M170 {y}H{end}M170 {}v8M{end} {}v8\" stroke=\"black\"/><text x=\"{}\" y=\"{}\">2 ∆s</text>",
+        y - 4.0,
+        y - 4.0,
+        end + 8.0,
+        y + 4.5
+    );
     out.push_str("</svg>\n");
     out
 }

@@ -14,6 +14,7 @@ mod corpora;
 mod crystal;
 mod dial;
 mod draw;
+mod drawing;
 mod figures;
 mod front;
 mod fuzz;

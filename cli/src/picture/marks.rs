@@ -35,10 +35,10 @@ pub(super) enum Mark {
         to: [f64; 2],
         fill: Colour,
     },
-    /// A text; `at` is the middle of its height.
+    /// A text; `at` is the middle of its capitals.
     Text {
         at: [f64; 2],
-        height: f64,
+        size: f64,
         anchor: Anchor,
         text: String,
     },
@@ -52,38 +52,65 @@ pub(super) struct Sheet {
     pub(super) marks: Vec<Mark>,
 }
 
-/// Height of headings, pixels.
-pub(super) const HEADING: f64 = 24.0;
-/// Height of labels, pixels.
-pub(super) const LABEL: f64 = 16.0;
+/// Letter size of headings, pixels.
+pub(super) const HEADING: f64 = 32.0;
+/// Letter size of labels, pixels.
+pub(super) const LABEL: f64 = 22.0;
 /// Room that the colour bar takes with its labels, pixels.
-pub(super) const BAR_ROOM: f64 = 190.0;
+pub(super) const BAR_ROOM: f64 = 220.0;
+/// Right of labels, pixels.
+const EDGE: f64 = 16.0;
 
 impl Sheet {
     pub(super) fn text(
         &mut self,
         at: [f64; 2],
-        height: f64,
+        size: f64,
         anchor: Anchor,
         text: impl Into<String>,
     ) {
         self.marks.push(Mark::Text {
             at,
-            height,
+            size,
             anchor,
             text: text.into(),
         });
     }
 
-    /// The title at `at`, smaller where it would not end on the sheet: letters are as wide as they are high, at most.
+    /// The title at `at`, smaller where it would not end on the sheet.
     pub(super) fn title(&mut self, at: [f64; 2], title: String) {
         let room = self.width as f64 - 2.0 * at[0];
-        let height = if title.chars().count() as f64 * HEADING <= room {
-            HEADING
-        } else {
-            LABEL
+        self.text_within(at, room, HEADING, title);
+    }
+
+    /// A text that begins at `at`, smaller than `size` where it would be wider than `room`.
+    fn text_within(&mut self, at: [f64; 2], room: f64, size: f64, text: String) {
+        let part = room / font::width(&text, size);
+        self.text(at, size * part.min(1.0), Anchor::Start, text);
+    }
+
+    /// A bar of a round length in scene units, its left end at `at`, no longer than `most`, and below it what it measures; `zoom` has
+    /// pixels per scene unit.
+    pub(super) fn length_bar(&mut self, [left, y]: [f64; 2], most: f64, zoom: f64) {
+        const END: f64 = 6.0;
+        let Some(length) = round_below(most / zoom) else {
+            return;
         };
-        self.text(at, height, Anchor::Start, title);
+        let right = left + length * zoom;
+        for points in [
+            vec![[left, y], [right, y]],
+            vec![[left, y - END], [left, y + END]],
+            vec![[right, y - END], [right, y + END]],
+        ] {
+            self.marks.push(Mark::Line {
+                points,
+                is_closed: false,
+                width: 2.0,
+            });
+        }
+        let unit = if length == 1.0 { "unit" } else { "units" };
+        let words = format!("{length} scene {unit}");
+        self.text_within([left, y + 28.0], BAR_ROOM - EDGE, LABEL, words);
     }
 
     /// The colour bar, its left edge and its middle at `at`.
@@ -118,15 +145,27 @@ impl Sheet {
                 width: 1.5,
             });
             let value = 1.0 + t * scale.half;
-            self.text(
-                [right + 14.0, y],
-                LABEL,
-                Anchor::Start,
-                format!("{value:.digits$}"),
-            );
+            let room = BAR_ROOM - WIDTH - 18.0 - EDGE;
+            let label = format!("{value:.digits$}");
+            self.text_within([right + 18.0, y], room, LABEL, label);
         }
         self.text([left, top - 30.0], LABEL, Anchor::Start, "density Γ");
     }
+}
+
+/// The greatest of 1, 2 or 5 times a power of ten that is no more than `most`.
+fn round_below(most: f64) -> Option<f64> {
+    let power = most.log10().floor();
+    let step = [5.0, 2.0, 1.0].into_iter();
+    let mut lengths = step.map(|step| {
+        // By division where it is a fraction: 0.05, not 0.05000000000000001.
+        if power < 0.0 {
+            step / 10_f64.powf(-power)
+        } else {
+            step * 10_f64.powf(power)
+        }
+    });
+    lengths.find(|&length| length <= most && length > 0.0 && length.is_finite())
 }
 
 /// A sheet in pixels.
@@ -166,15 +205,16 @@ pub(super) fn paint(canvas: &mut Canvas, marks: &[Mark]) {
             Mark::Rectangle { from, to, fill } => canvas.rectangle(*from, *to, *fill),
             Mark::Text {
                 at,
-                height,
+                size,
                 anchor,
                 text,
             } => {
                 let left = match anchor {
                     Anchor::Start => at[0],
-                    Anchor::Middle => at[0] - 0.5 * font::width(text, *height),
+                    Anchor::Middle => at[0] - 0.5 * font::width(text, *size),
                 };
-                font::write(canvas, text, [left, at[1] - 0.5 * height], *height, INK);
+                let from = [left, font::baseline(at[1], *size)];
+                font::write(canvas, text, from, *size, INK);
             }
         }
     }

@@ -6,6 +6,7 @@ mod canvas;
 mod colour;
 mod font;
 mod marks;
+mod palette;
 mod plane;
 mod png;
 mod slice;
@@ -13,6 +14,9 @@ mod spheres;
 mod svg;
 #[cfg(test)]
 mod tests;
+
+pub use font::{FAMILY as FONT_FAMILY, width as text_width};
+pub use png::write as write_png;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -79,10 +83,20 @@ impl PictureFormat {
 /// # Errors
 /// Those of `to`.
 pub fn draw(subject: &Subject<'_>, format: PictureFormat, to: &mut dyn Write) -> io::Result<()> {
-    match (format, subject.table.dimension) {
-        (PictureFormat::Svg, _) => svg::write(&plane::sheet(subject), to),
-        (PictureFormat::Png, 2) => png::write(&marks::painted(&plane::sheet(subject)), to),
-        (PictureFormat::Png, _) => png::write(&spheres::painted(subject), to),
+    match format {
+        PictureFormat::Svg => svg::write(&plane::sheet(subject), to),
+        PictureFormat::Png => {
+            let canvas = painted(subject);
+            png::write(canvas.width as u32, &canvas.pixels, to)
+        }
+    }
+}
+
+/// A packing in pixels.
+fn painted(subject: &Subject<'_>) -> canvas::Canvas {
+    match subject.table.dimension {
+        2 => marks::painted(&plane::sheet(subject)),
+        _ => spheres::painted(subject),
     }
 }
 

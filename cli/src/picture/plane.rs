@@ -5,6 +5,7 @@ use sphpack_packing::Kind;
 use super::colour::{Colour, GREY, INK, Scale};
 use super::marks::{Anchor, BAR_ROOM, LABEL, Mark, Sheet};
 use super::{Subject, grouped};
+use crate::table::Table;
 
 /// Width of the picture, pixels.
 const WIDTH: f64 = 1600.0;
@@ -162,30 +163,33 @@ pub(super) fn sheet(subject: &Subject<'_>) -> Sheet {
             width: (0.08 * pixels).clamp(1.2, 3.0),
         });
     }
-    sheet.colour_bar([WIDTH - BAR_ROOM, view.origin[1] - 0.5 * drawn[1]], scale);
-    legend(
-        &mut sheet,
-        [WIDTH - BAR_ROOM, view.origin[1] - 0.5 * drawn[1] + 260.0],
-    );
+    let left = WIDTH - BAR_ROOM;
+    let middle = view.origin[1] - 0.5 * drawn[1];
+    sheet.colour_bar([left, middle], scale);
+    let below = legend(&mut sheet, table, [left, middle + 260.0]);
+    sheet.length_bar([left, below + 16.0], BAR_ROOM - 2.0 * MARGIN, zoom);
     sheet
 }
 
-/// What rings and small discs mean.
-fn legend(sheet: &mut Sheet, [left, top]: [f64; 2]) {
-    const SIZE: f64 = 22.0;
+/// What rings and small discs mean, of those that there are; gives where it ends.
+fn legend(sheet: &mut Sheet, table: &Table, [left, top]: [f64; 2]) -> f64 {
+    const SIZE: f64 = 24.0;
+    const LINE: f64 = 32.0;
     let middle = super::colour::WHITE;
-    for (line, (kind, rim, words)) in [
+    let mut y = top;
+    for (kind, rim, words) in [
         (Kind::Boundary, 0.1, "boundary"),
         (Kind::Fixed, 0.2, "fixed"),
         (Kind::Frozen, 0.0, "frozen"),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let y = top + 28.0 * line as f64;
+    ] {
+        if !table.kind.contains(&kind) {
+            continue;
+        }
         sheet
             .marks
             .push(particle(kind, [left + 12.0, y], SIZE, middle, rim));
         sheet.text([left + 32.0, y], LABEL, Anchor::Start, words);
+        y += LINE;
     }
+    y
 }

@@ -76,7 +76,7 @@ fn first_body(subject: &Subject<'_>) -> Option<u16> {
     subject.table.body.iter().flatten().min().copied()
 }
 
-/// Draws the slice into a box of the sheet.
+/// Draws the slice into a box of the sheet, and below it what it shows and how long things are in it.
 pub(super) fn add(
     sheet: &mut Sheet,
     subject: &Subject<'_>,
@@ -143,11 +143,14 @@ pub(super) fn add(
         LABEL,
         Anchor::Middle,
         format!(
-            "slice {} = {}; rings: solid, thick ones: surface",
+            "slice {} = {}, {} right, {} up; rings: solid, thick ones: surface",
             AXES[cut.axis],
-            rounded(cut.at, subject.spacing)
+            rounded(cut.at, subject.spacing),
+            AXES[h],
+            AXES[v]
         ),
     );
+    sheet.length_bar([left, top + size + 62.0], 0.25 * size, zoom);
 }
 
 /// A place to a hundredth of a spacing.

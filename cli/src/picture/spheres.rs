@@ -15,6 +15,8 @@ const PANEL: f64 = 780.0;
 const MARGIN: f64 = 40.0;
 /// The title's room, pixels.
 const TITLE: f64 = 70.0;
+/// Room for the words below the panels, pixels.
+const FOOT: f64 = 120.0;
 /// Radius of a sphere in ∆s: neighbours overlap, so that the surface closes.
 const RADIUS: f64 = 0.58;
 
@@ -23,7 +25,7 @@ pub(super) fn painted(subject: &Subject<'_>) -> Canvas {
     let scale = Scale::holding(subject.table.linf());
     let mut sheet = Sheet {
         width: (2.0 * PANEL + 3.0 * MARGIN + BAR_ROOM) as usize,
-        height: (PANEL + TITLE + 2.0 * MARGIN + 20.0) as usize,
+        height: (PANEL + TITLE + FOOT) as usize,
         marks: Vec::new(),
     };
     sheet.title([MARGIN, 0.5 * TITLE + 6.0], title(subject));

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::colour::{Colour, INK};
+use super::font::{FAMILY, baseline};
 use super::marks::{Anchor, Mark, Sheet};
 
 fn hex([r, g, b]: Colour) -> String {
@@ -28,7 +29,7 @@ pub(super) fn write(sheet: &Sheet, to: &mut dyn Write) -> io::Result<()> {
     let (width, height, ink) = (sheet.width, sheet.height, hex(INK));
     writeln!(
         to,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\">"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"{FAMILY}\">"
     )?;
     writeln!(
         to,
@@ -95,7 +96,7 @@ pub(super) fn write(sheet: &Sheet, to: &mut dyn Write) -> io::Result<()> {
             )?,
             Mark::Text {
                 at,
-                height,
+                size,
                 anchor,
                 text,
             } => {
@@ -105,10 +106,10 @@ pub(super) fn write(sheet: &Sheet, to: &mut dyn Write) -> io::Result<()> {
                 };
                 writeln!(
                     to,
-                    "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{anchor}\" dominant-baseline=\"central\" fill=\"{ink}\">{}</text>",
+                    "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{ink}\">{}</text>",
                     short(at[0]),
-                    short(at[1]),
-                    short(*height),
+                    short(baseline(at[1], *size)),
+                    short(*size),
                     escaped(text)
                 )?;
             }

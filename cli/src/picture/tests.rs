@@ -5,6 +5,7 @@ use sphpack_separation::Side;
 
 use super::*;
 
+mod letters;
 mod pixels;
 
 /// A square or cubic lattice with a body in its middle.
@@ -55,33 +56,58 @@ fn lattice(dimension: usize, across: usize) -> Table {
     table
 }
 
-fn drawn(table: &Table, format: PictureFormat) -> Vec<u8> {
+/// Does something with the subject that tests draw.
+fn with_subject<T>(table: &Table, act: impl FnOnce(&Subject<'_>) -> T) -> T {
     // Frozen particles are outside of the domain.
     let end = |most: f64, p: &[f64; 3]| most.max(p[0]);
     let half = table.position.iter().fold(0.55, end) - 0.05;
-    let subject = Subject {
+    act(&Subject {
         name: "a <b> & \"c\"\n",
         table,
         loops: &[vec![[-0.35, -0.05], [0.35, -0.05], [0.0, 0.38]]],
         domain: [[-half; 3], [half; 3]],
         spacing: 0.1,
         is_unfinished: true,
-    };
+    })
+}
+
+fn drawn(table: &Table, format: PictureFormat) -> Vec<u8> {
     let mut bytes = Vec::new();
-    draw(&subject, format, &mut bytes).unwrap();
+    with_subject(table, |subject| draw(subject, format, &mut bytes)).unwrap();
     bytes
+}
+
+/// The picture before it is a file.
+fn in_pixels(table: &Table) -> canvas::Canvas {
+    with_subject(table, painted)
 }
 
 /// Width, height and pixels of a PNG.
 fn decoded(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {
-    let mut reader = ::png::Decoder::new(io::Cursor::new(bytes))
-        .read_info()
-        .unwrap();
+    let mut decoder = ::png::Decoder::new(io::Cursor::new(bytes));
+    decoder.set_transformations(::png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut pixels).unwrap();
     let (pixels, rest) = pixels.as_chunks();
     assert!(rest.is_empty() && info.color_type == ::png::ColorType::Rgb);
     (info.width as usize, info.height as usize, pixels.to_vec())
+}
+
+/// The file has what was painted: letters and lines to the bit, colours of densities to a few levels.
+#[test]
+fn pngs_show_what_was_painted() {
+    for dimension in [2, 3] {
+        let painted = in_pixels(&table(dimension));
+        let (width, height, pixels) = decoded(&drawn(&table(dimension), PictureFormat::Png));
+        assert_eq!((width, height), (painted.width, painted.height));
+        assert!(width >= 1600 && height >= 900, "{width} x {height}");
+        for (seen, meant) in pixels.iter().zip(&painted.pixels) {
+            let off = (0..3).map(|k| seen[k].abs_diff(meant[k])).max();
+            assert!(off <= Some(12), "{seen:?} {meant:?}");
+            assert!(![colour::WHITE, colour::INK].contains(meant) || seen == meant);
+        }
+    }
 }
 
 #[test]
@@ -93,7 +119,7 @@ fn svg_is_well_formed() {
         &text[..600]
     );
     assert!(text.contains("unfinished"));
-    assert_eq!(text.matches("<circle").count(), 144 + 3);
+    assert_eq!(text.matches("<circle").count(), 144 + 2);
     // Every tag is closed, nothing is not a number, and all text is escaped.
     let mut open = Vec::new();
     for part in text.split('<').skip(1) {
@@ -108,14 +134,6 @@ fn svg_is_well_formed() {
     }
     assert!(open.is_empty());
     assert!(!text.contains("NaN") && !text.contains("inf"));
-}
-
-#[test]
-fn pngs_are_large_enough() {
-    for dimension in [2, 3] {
-        let (width, height, _) = decoded(&drawn(&table(dimension), PictureFormat::Png));
-        assert!(width >= 1600 && height >= 900, "{width} x {height}");
-    }
 }
 
 #[test]
@@ -139,29 +157,32 @@ fn thousands_are_set_apart() {
     );
 }
 
+/// Titles, and the numbers beside the colours: with many letters, wide ones, or many digits.
 #[test]
-fn titles_end_on_the_sheet() {
-    let table = table(2);
-    for (name, is_unfinished) in [
-        ("a", false),
-        ("bends", true),
-        ("as-long-as-a-name-is-shown-here", true),
-    ] {
+fn texts_end_on_the_sheet() {
+    for (name, off) in [("a", 1e-2), ("bends", 1e-11), (&"W".repeat(40), 1e-3)] {
+        let mut table = table(2);
+        for (gamma, [x, ..]) in table.gamma.iter_mut().zip(&table.position) {
+            *gamma = 1.0 + off * x;
+        }
         let subject = Subject {
             name,
             table: &table,
             loops: &[],
             domain: [[-0.5; 3], [0.5; 3]],
             spacing: 0.012_345,
-            is_unfinished,
+            is_unfinished: true,
         };
         let sheet = plane::sheet(&subject);
-        let end = sheet.marks.iter().find_map(|mark| match mark {
-            marks::Mark::Text {
-                at, height, text, ..
-            } if text.contains("max") => Some(at[0] + height * text.chars().count() as f64),
-            _ => None,
-        });
-        assert!(end.is_some_and(|end| end <= sheet.width as f64), "{end:?}");
+        let mut count = 0;
+        for mark in &sheet.marks {
+            if let marks::Mark::Text { at, size, text, .. } = mark {
+                let end = at[0] + font::width(text, *size);
+                assert!(end <= sheet.width as f64, "{text} ends at {end}");
+                count += 1;
+            }
+        }
+        // The title, the bar's name and numbers, two kinds, a length.
+        assert_eq!(count, 1 + 6 + 2 + 1);
     }
 }

@@ -1,7 +1,10 @@
 //! Names beside points, where there is room.
 
-/// Width of a letter and height of a line at the size of names.
-pub(super) const LETTER: [f64; 2] = [6.4, 13.0];
+use sphpack::picture::text_width;
+
+/// Letter size of names, and the height of a line of them.
+pub(super) const NAME: f64 = 12.0;
+const LINE: f64 = 13.0;
 
 /// A name and where it goes.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +38,7 @@ pub(super) fn placed(names: &[(&str, [f64; 2])], marks: &[[f64; 2]], within: Roo
     let mut taken: Vec<Room> = Vec::new();
     let mut labels = Vec::new();
     for (name, point) in names {
-        let width = LETTER[0] * name.chars().count() as f64;
+        let width = text_width(name, NAME);
         let mut best: Option<(f64, Room, f64)> = None;
         for far in FAR {
             for way in WAYS {
@@ -69,7 +72,7 @@ fn room(point: [f64; 2], way: [f64; 2], far: f64, width: f64) -> Room {
     } else {
         x - 0.5 * width
     };
-    [left, y - 0.5 * LETTER[1], left + width, y + 0.5 * LETTER[1]]
+    [left, y - 0.5 * LINE, left + width, y + 0.5 * LINE]
 }
 
 /// What is wrong with a place: names covered weigh most, then the edge, then marks.
@@ -98,11 +101,11 @@ mod tests {
         let names: Vec<(&str, [f64; 2])> = points.iter().map(|&p| ("some name", p)).collect();
         let labels = placed(&names, &points, [0.0, 0.0, 300.0, 200.0]);
         assert_eq!(labels.len(), 3);
-        let width = 9.0 * LETTER[0];
+        let width = text_width("some name", NAME);
         for (i, a) in labels.iter().enumerate() {
             for b in &labels[..i] {
                 let apart = [0, 1].map(|k| (a.at[k] - b.at[k]).abs());
-                assert!(apart[0] >= width || apart[1] >= LETTER[1], "{a:?} {b:?}");
+                assert!(apart[0] >= width || apart[1] >= LINE, "{a:?} {b:?}");
             }
         }
     }
@@ -115,6 +118,9 @@ mod tests {
             [0.0, 0.0, 300.0, 200.0],
         );
         let at = labels[0].at;
-        assert!(at[0] + 11.0 * LETTER[0] <= 300.0 && at[1] >= 6.0, "{at:?}");
+        assert!(
+            at[0] + text_width("at the edge", NAME) <= 300.0 && at[1] >= 6.0,
+            "{at:?}"
+        );
     }
 }

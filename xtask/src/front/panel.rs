@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::labels::placed;
+use super::labels::{NAME, placed};
 use super::pareto::front;
 use crate::axes::{Axis, Frame, Scale};
+use crate::drawing;
 use crate::power_law::PowerLaw;
 
 /// Size of a panel, and the room around its axes: left, right, top, bottom.
@@ -115,12 +116,7 @@ impl Panel {
                     point[0], point[1]
                 );
             }
-            let [x, y] = label.at;
-            // A white rim, so that lines behind a name do not cross it out.
-            let _ = writeln!(
-                out,
-                "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"12\" stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\">{name}</text>"
-            );
+            drawing::rimmed(out, label.at, NAME, name);
         }
     }
 }

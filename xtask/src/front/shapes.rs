@@ -3,6 +3,7 @@
 use sphpack::scene::{Finish, Method};
 
 use super::points::{Factor, Point};
+use crate::drawing::{CIRCLE, DIAMOND, DOWN, SQUARE, UP};
 
 /// How points of one kind are drawn.
 pub(super) struct Shape {
@@ -13,11 +14,6 @@ pub(super) struct Shape {
     pub(super) path: &'static str,
 }
 
-const CIRCLE: &str = "M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0";
-const SQUARE: &str = "M-4-4h8v8h-8z";
-const DIAMOND: &str = "M0-5.6L4.6 0L0 5.6L-4.6 0z";
-const UP: &str = "M0-5.2L4.8 3.6H-4.8z";
-const DOWN: &str = "M0 5.2L4.8-3.6H-4.8z";
 const PENTAGON: &str = "M0-5L4.8-1.5L2.9 4H-2.9L-4.8-1.5z";
 const CROSS: &str = "M-4-4L4 4M-4 4L4-4";
 const PLUS: &str = "M-5 0H5M0-5V5";

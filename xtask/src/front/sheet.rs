@@ -7,6 +7,7 @@ use super::figures::Figures;
 use super::panel::{Dot, Panel, SIZE, best};
 use super::points::{DEFAULT, Factor, Place, Point};
 use super::shapes::{SHAPES, shape};
+use crate::drawing;
 use crate::power_law::PowerLaw;
 
 /// A surface with less of its particles is not that of the body: a lattice that is cut at it leaves nothing on it and is as even as
@@ -114,13 +115,13 @@ impl Sheet {
     pub(super) fn svg(&self) -> String {
         let scene = self.place.scene;
         let [width, height] = [2.0 * SIZE[0], HEAD + 3.0 * SIZE[1] + LEGEND];
-        let mut out = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n\
-             <text x=\"14\" y=\"24\" font-size=\"16\">{scene}, ∆s = {}: the better the farther down to the left; the line joins what nothing beats</text>\n<defs>\n",
+        let mut out = drawing::begin(width, height);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            out,
+            "<text x=\"14\" y=\"24\" font-size=\"16\">{scene}, ∆s = {}: the better the farther down to the left; the line joins what nothing beats</text>\n<defs>",
             self.place.spacing
         );
-        // Writing to a string cannot fail.
         for (number, shape) in SHAPES.iter().enumerate() {
             let _ = writeln!(
                 out,

@@ -137,7 +137,7 @@ const HEAD: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf
 body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}\
 table{border-collapse:collapse;margin:.7em 0}th,td{padding:.2em .7em;border-bottom:1px solid #ddd;text-align:left;font-size:14px}\
 td.n{text-align:right;font-variant-numeric:tabular-nums}.holds{color:#00694c}.miss{color:#a34700}.changed{color:#fff;background:#b00020}\
-.pictures{display:flex;flex-wrap:wrap;gap:1em}figure{margin:0;width:340px}figure img{width:100%}figcaption{font-size:13px;color:#555}\
+.pictures{display:flex;flex-wrap:wrap;gap:1em}figure{margin:0;width:540px;max-width:100%}figure:has(:checked){width:100%}figure img{width:100%;cursor:zoom-in}figcaption{font-size:13px;color:#555}\
 </style></head><body>\n";
 
 fn html(results: &[Result], is_quick: bool) -> std::result::Result<String, String> {
@@ -148,7 +148,7 @@ fn html(results: &[Result], is_quick: bool) -> std::result::Result<String, Strin
         out,
         "<h1>Packing, published and ours{form}</h1>\n<p>What five papers print about packing, beside what this program gets. \
          Papers go by the numbers of docs/papers.md. A row <em>holds</em> where our number is within its bar; rows <em>beside</em> are not judged. \
-         Ratios are the named method's number over the first one's.</p>\n"
+         Ratios are the named method's number over the first one's. A picture is larger after a click on it.</p>\n"
     );
     // Figures share packings: each picture is shown with the first.
     let mut shown = Vec::new();
@@ -213,14 +213,15 @@ fn section<'a>(
         shown.push(picture);
         let bytes = thumbnail(picture)?;
         let subject = &result.row.subject;
+        let words = subject.words();
         let from = (subject.packing()).map_or_else(String::new, |setup| {
             format!("; scenes/{}.toml", setup.scene)
         });
         let _ = writeln!(
             out,
-            "<figure><img alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>{}{from}</figcaption></figure>",
+            "<figure><label><input type=\"checkbox\" hidden><img alt=\"{words}\" src=\"data:image/png;base64,{}\"></label>\
+             <figcaption>{words}{from}</figcaption></figure>",
             base64(&bytes),
-            subject.words(),
         );
     }
     out.push_str("</div>\n");

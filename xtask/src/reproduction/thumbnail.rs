@@ -4,11 +4,10 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-/// No wider than this, pixels: the page shows them at half of it.
-const WIDTH: u32 = 680;
+use sphpack::picture::write_png;
 
-/// Colours are told in steps of this: particles that differ less look alike, and so many fewer colours are packed far smaller.
-const STEP: u16 = 8;
+/// No wider than this, pixels: half of what the pictures are, so that their letters can still be read.
+const WIDTH: u32 = 960;
 
 /// A PNG file's picture, smaller, as a PNG.
 pub(super) fn thumbnail(path: &Path) -> Result<Vec<u8>, String> {
@@ -27,40 +26,29 @@ pub(super) fn thumbnail(path: &Path) -> Result<Vec<u8>, String> {
     }
     let (width, small) = shrunk(&pixels, info.width, info.height);
     let mut bytes = Vec::new();
-    let height = small.len() / (3 * width as usize).max(1);
-    let mut encoder = png::Encoder::new(&mut bytes, width, height as u32);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
-    let mut writer = encoder.write_header().map_err(|e| fail(&e))?;
-    writer.write_image_data(&small).map_err(|e| fail(&e))?;
-    writer.finish().map_err(|e| fail(&e))?;
+    write_png(width, &small, &mut bytes).map_err(|e| fail(&e))?;
     Ok(bytes)
 }
 
 /// The picture with squares of pixels made one each, as wide as allowed, and how wide that is.
-fn shrunk(pixels: &[u8], width: u32, height: u32) -> (u32, Vec<u8>) {
+fn shrunk(pixels: &[u8], width: u32, height: u32) -> (u32, Vec<[u8; 3]>) {
     let side = width.div_ceil(WIDTH).max(1);
     let (across, down) = (width / side, height / side);
-    let mut small = Vec::with_capacity(3 * (across * down) as usize);
+    let mut small = Vec::with_capacity((across * down) as usize);
     for y in 0..down {
         for x in 0..across {
-            for colour in 0..3 {
-                let mut sum = 0_u32;
-                for (dx, dy) in (0..side * side).map(|k| (k % side, k / side)) {
+            let mean = |colour: u32| {
+                let places = (0..side * side).map(|k| (k % side, k / side));
+                let values = places.map(|(dx, dy)| {
                     let at = 3 * ((side * y + dy) * width + side * x + dx) + colour;
-                    sum += u32::from(pixels[at as usize]);
-                }
-                small.push(stepped((sum / (side * side)) as u8));
-            }
+                    u32::from(pixels[at as usize])
+                });
+                (values.sum::<u32>() / (side * side)) as u8
+            };
+            small.push([mean(0), mean(1), mean(2)]);
         }
     }
     (across, small)
-}
-
-/// The nearest of the steps; white stays white.
-fn stepped(value: u8) -> u8 {
-    ((u16::from(value) + STEP / 2) / STEP * STEP).min(255) as u8
 }
 
 #[cfg(test)]
@@ -75,8 +63,7 @@ mod tests {
             .map(|k| if k / 3 % 2 == 0 { 0 } else { 255 })
             .collect();
         let (across, small) = shrunk(&[row.clone(), row].concat(), width, 2);
-        assert_eq!((across, small.len()), (WIDTH, 3 * WIDTH as usize));
-        assert!(small.iter().all(|&value| value == stepped(127)));
-        assert_eq!([stepped(255), stepped(0), stepped(252)], [255, 0, 255]);
+        assert_eq!((across, small.len()), (WIDTH, WIDTH as usize));
+        assert!(small.iter().all(|&pixel| pixel == [127; 3]));
     }
 }

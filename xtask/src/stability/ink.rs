@@ -3,6 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use sphpack::picture::text_width;
+
+use crate::drawing;
+
 /// Classes of a number: below which bound, in which colour, in which words; the last has all that is left.
 pub(super) struct Shades {
     pub(super) title: &'static str,
@@ -68,7 +72,7 @@ impl Shades {
         );
         let (mut x, mut y) = (at[0], at[1] + 10.0);
         for (_, colour, words) in self.classes {
-            let room = 38.0 + 7.4 * words.chars().count() as f64;
+            let room = 38.0 + text_width(words, 13.0);
             if x + room > at[0] + width {
                 (x, y) = (at[0], y + 20.0);
             }
@@ -128,11 +132,8 @@ pub(super) fn digits(value: f64) -> String {
 
 /// The head of a picture.
 pub(super) fn begin(width: f64, height: f64, title: &str) -> String {
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n\
-         <text x=\"16\" y=\"24\" font-size=\"16\">{title}</text>\n"
-    )
+    let head = drawing::begin(width, height);
+    format!("{head}<text x=\"16\" y=\"24\" font-size=\"16\">{title}</text>\n")
 }
 
 #[cfg(test)]

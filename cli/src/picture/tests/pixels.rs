@@ -2,9 +2,10 @@
 
 use sphpack_packing::Kind;
 
+use super::super::canvas::Canvas;
 use super::super::colour::{GREY, INK, Scale, WHITE};
 use super::super::{PictureFormat, Table};
-use super::{decoded, drawn, lattice};
+use super::{drawn, in_pixels, lattice};
 
 /// How far the lattice of 13 sites a side goes to either side.
 const HALF: f64 = 0.6;
@@ -26,7 +27,11 @@ struct Seen {
 impl Seen {
     /// Frozen particles are looked for in the columns before `end`; right of it are legends.
     fn of(table: &Table, end: usize) -> Self {
-        let (width, height, pixels) = decoded(&drawn(table, PictureFormat::Png));
+        let Canvas {
+            width,
+            height,
+            pixels,
+        } = in_pixels(table);
         let grey = (0..pixels.len())
             .filter(|&i| i % width < end && pixels[i] == GREY)
             .map(|i| [i % width, i / width]);
@@ -118,7 +123,7 @@ fn turned(mut table: Table) -> Table {
 #[test]
 fn in_the_plane_colours_follow_density() {
     for table in [tilted(lattice(2, 13)), turned(tilted(lattice(2, 13)))] {
-        let seen = Seen::of(&table, 1400);
+        let seen = Seen::of(&table, 1370);
         check_particles(&table, &seen);
         // Between four discs, below and left of the body, is paper; so are the corners of the sheet.
         for place in [[-0.35, -0.35], [0.45, -0.25], [-0.25, 0.35], [0.05, -0.45]] {
@@ -165,7 +170,7 @@ fn slices_show_the_layer_through_the_body() {
 #[test]
 fn spheres_have_the_colour_of_their_density() {
     for (table, sign) in [(lattice(3, 13), 1), (turned(lattice(3, 13)), -1)] {
-        let (width, _, pixels) = decoded(&drawn(&table, PictureFormat::Png));
+        let Canvas { width, pixels, .. } = in_pixels(&table);
         // The panel is 780 pixels wide, from column 860 and row 70 on.
         let panel = |x: usize, y: usize| pixels[(70 + y) * width + 860 + x];
         for (x, y) in [(3, 3), (776, 3), (3, 776), (776, 776)] {
