@@ -36,6 +36,9 @@ const WIDEST: f64 = 3.6;
 /// Parts of more than this, in ∆s^D, are too dear to try; in the plane and in space.
 const MOST_VOLUME: [f64; 2] = [300.0, 100.0];
 
+/// Parts of less than this, in ∆s^D, are tried though they are thin: two particles in a square of 1.3 ∆s are 0.4 ∆s apart.
+const TINY: f64 = 4.0;
+
 /// The room around a part that is packed alone, in ∆s, in the plane and in space.
 const AROUND: [f64; 2] = [4.0, 3.0];
 
@@ -181,7 +184,7 @@ pub(super) fn sample_anew<const D: usize>(
     Ok(())
 }
 
-/// Whether other counts may be tried for a part: it is small, nowhere thin, and all of it is in the box.
+/// Whether other counts may be tried for a part: it is small, nowhere thin unless it is tiny, and all of it is in the box.
 fn is_small<const D: usize>(problem: &Problem<D>, sampled: &Sampled<D>, part: usize) -> bool {
     let body = &problem.bodies[part];
     let bounds = body.surface.bounds();
@@ -194,7 +197,7 @@ fn is_small<const D: usize>(problem: &Problem<D>, sampled: &Sampled<D>, part: us
         && volume <= MOST_VOLUME[usize::from(D == 3)].min(0.5 * WIDEST * length)
         && sampled.excess[part] == 0.0
         // Thin parts get other counts than their length asks for.
-        && sampled.samples[part].len() == length.round() as usize
+        && (sampled.samples[part].len() == length.round() as usize || volume <= TINY)
 }
 
 /// A part in a box of its own: of whole cells of the problem's lattice, so that the same sites are in it. With others a part that was
@@ -292,7 +295,8 @@ fn candidates<const D: usize>(alone: &Problem<D>, usual: usize) -> Vec<Counts> {
     let volume_step = ((VOLUME_STEP * volume).round() as usize).max(1);
     let mut candidates = Vec::new();
     for on_surface in (fewest..=usual + MORE * step).step_by(step) {
-        if on_surface < corners.max(1) {
+        // Where every corner has a point it keeps it.
+        if on_surface == 0 || (corners <= usual && on_surface < corners) {
             continue;
         }
         let is_apart = |points: Vec<Closest<D>>| {
@@ -305,7 +309,10 @@ fn candidates<const D: usize>(alone: &Problem<D>, usual: usize) -> Vec<Counts> {
         }
         let largest = VOLUMES[1] + VOLUMES[2] / volume;
         let all = (volume / largest).ceil() as usize..=(volume / VOLUMES[0]).floor() as usize;
-        for all in all.step_by(volume_step).filter(|&all| all >= on_surface) {
+        // One inside among two on the surface was even in all phases, and not among neighbours.
+        let most_inside = if volume <= TINY { 0 } else { usize::MAX };
+        let is_possible = |&all: &usize| all >= on_surface && all - on_surface <= most_inside;
+        for all in all.step_by(volume_step).filter(is_possible) {
             candidates.push(Counts {
                 on_surface,
                 inside: all - on_surface,
