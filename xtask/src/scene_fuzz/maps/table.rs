@@ -1,0 +1,94 @@
+//! All maps, declared: what each is about, its panels, and pins on both sides of its edge.
+
+use super::outcome::Outcome::{Degraded, Passes, Refused, Said};
+use super::panel::{Map, Pin};
+use super::{
+    corner, curvature, dirt, gap, kernels, parts, resolution, settings, thin, units, wall,
+};
+
+/// In the order of the page.
+pub(super) const MAPS: [Map; 11] = [
+    Map {
+        name: "corner",
+        title: "Corners",
+        about: "How sharp a corner may be, inside the body (a tip) and outside it (a notch), and how long its sides must be.",
+        panels: &[corner::PLANE, corner::WEDGE, corner::CONE],
+        pins: &[],
+    },
+    Map {
+        name: "thin",
+        title: "Thin bodies",
+        about: "How thin a strip or a plate may be.",
+        panels: &[thin::STRIP, thin::PLATE],
+        pins: &[],
+    },
+    Map {
+        name: "gap",
+        title: "Gaps",
+        about: "How near two bodies, two shells or the sides of a slit may come.",
+        panels: &[gap::PLANE],
+        pins: &[],
+    },
+    Map {
+        name: "parts",
+        title: "Small parts",
+        about: "How small the parts of a body may be, how near each other, and how many.",
+        panels: &[parts::DISTANCE, parts::NUMBER],
+        pins: &[],
+    },
+    Map {
+        name: "curvature",
+        title: "Round walls",
+        about: "How small the radius of a wall may be, seen from inside and from outside.",
+        panels: &[curvature::PLANE, curvature::SPACE],
+        pins: &[],
+    },
+    Map {
+        name: "resolution",
+        title: "Resolution",
+        about: "How many particles a whole body must have along its length.",
+        panels: &[resolution::PLANE, resolution::SPACE],
+        pins: &[],
+    },
+    Map {
+        name: "wall",
+        title: "Sides of the box",
+        about: "How near a side of the box a body may come, on it, beyond it, and across a periodic seam.",
+        panels: &[wall::PLANE],
+        pins: &[],
+    },
+    Map {
+        name: "dirt",
+        title: "Damaged meshes",
+        about: "What may be wrong with a mesh. What is packed is judged by the sound mesh.",
+        panels: &[dirt::BALL, dirt::CUBE],
+        pins: &[],
+    },
+    Map {
+        name: "parameters",
+        title: "Settings",
+        about: "What happens where a constant of a method is not what it should be, and whether place, turn and seed matter.",
+        panels: &[
+            settings::BALANCED,
+            settings::HYBRID,
+            settings::COMPLEX,
+            settings::LATTICE,
+            settings::SEED,
+        ],
+        pins: &[],
+    },
+    Map {
+        name: "kernel",
+        title: "Kernels",
+        about: "Which kernels pack at which smoothing length.",
+        panels: &[kernels::SQUARE, kernels::BALL],
+        pins: &[],
+    },
+    Map {
+        name: "units",
+        title: "Units and places",
+        about: "Whether the unit of length and the distance from the origin matter.",
+        panels: &[units::PLANE, units::SPACE],
+        pins: &[],
+    },
+];
