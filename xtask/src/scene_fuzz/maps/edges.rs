@@ -21,14 +21,19 @@ pub(super) fn sentences(panel: &Panel, grid: &Grid) -> String {
             )
         })
         .filter(|(count, _)| *count > 0)
-        .map(|(count, outcome)| format!("{count} {}", outcome.words()))
+        .map(|(count, outcome)| format!("{} {count}", outcome.words()))
         .collect();
     let mut text = format!("Of {all} scenes: {}.", counts.join(", "));
     let passes = |cell: &Cell| cell.outcome == Outcome::Passes;
     let holds = |cell: &Cell| matches!(cell.outcome, Outcome::Passes | Outcome::Degraded);
     let label = panel.x.label;
     match common(panel, grid, passes) {
-        Some(range) => text += &format!(" All pass: {label}: {}.", range_words(panel, range)),
+        Some(range) => {
+            text += &format!(
+                " Every row passes with {label}: {}.",
+                range_words(panel, range)
+            )
+        }
         None => text += &best_rows(panel, grid, passes),
     }
     match common(panel, grid, holds) {
@@ -148,7 +153,10 @@ mod tests {
         let said = sentences(panel, &vec![row(10), row(12)]);
         let edge = panel.x.word(12);
         assert!(
-            said.contains(&format!("All pass: {}: from {edge}.", panel.x.label)),
+            said.contains(&format!(
+                "Every row passes with {}: from {edge}.",
+                panel.x.label
+            )),
             "{said}"
         );
         assert!(said.contains("No worse than degraded: all of"), "{said}");

@@ -93,11 +93,8 @@ impl Settings {
             let names = METHODS.map(|method| method.name).join(", ");
             return Err(format!("there are maps of the methods {names}"));
         }
-        if self.write && (self.quick || asked.len() < METHODS.len()) {
-            return Err(
-                "--write needs every cell of every method: leave --quick and --method out"
-                    .to_owned(),
-            );
+        if self.write && self.quick {
+            return Err("--write needs every cell: leave --quick out".to_owned());
         }
         Ok(asked)
     }
@@ -123,9 +120,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
 fn made(bench: &Bench, settings: &Settings, methods: &[Method]) -> Result<(), String> {
     let mut failures = Vec::new();
     for map in settings.maps() {
-        let mut all: Vec<(Method, Vec<(&Panel, Grid)>)> = Vec::new();
         for method in methods {
-            let mut panels = Vec::new();
+            let mut panels: Vec<(&Panel, Grid)> = Vec::new();
             for (number, panel) in map.panels.iter().enumerate() {
                 if panel.only.is_some_and(|only| only != method.name) {
                     continue;
@@ -134,12 +130,11 @@ fn made(bench: &Bench, settings: &Settings, methods: &[Method]) -> Result<(), St
                 failures.extend(listed(map, number, *method, &grid));
                 panels.push((panel, grid));
             }
-            all.push((*method, panels));
-        }
-        let section = page::Section::of(map, &all);
-        println!("{}", section.text);
-        if settings.write {
-            section.write(map)?;
+            let section = page::Section::of(map, *method, &panels);
+            println!("{}", section.text);
+            if settings.write {
+                section.write(map, *method)?;
+            }
         }
     }
     if failures.is_empty() {

@@ -6,7 +6,7 @@ use super::super::judge::{Judgement, Verdict};
 use super::super::trial::Trial;
 
 /// Of what passes: the largest deviation of the density, and the closest pair in ∆s.
-pub(super) const EVEN: f64 = 0.02;
+pub(super) const EVEN: f64 = 0.01;
 pub(super) const APART: f64 = 0.6;
 
 /// Of what is no failure, though exit status 0 says that all is right.
@@ -153,11 +153,11 @@ mod tests {
     #[test]
     fn what_is_right_may_be_uneven() {
         let of = |linf, closest, left| of_right(linf, closest, left).0;
-        assert_eq!(of(Some(0.01), Some(0.8), ""), Outcome::Passes);
-        assert_eq!(of(Some(0.01), None, ""), Outcome::Passes);
-        assert_eq!(of(Some(0.01), Some(0.55), ""), Outcome::Degraded);
+        assert_eq!(of(Some(0.009), Some(0.8), ""), Outcome::Passes);
+        assert_eq!(of(Some(0.009), None, ""), Outcome::Passes);
+        assert_eq!(of(Some(0.009), Some(0.55), ""), Outcome::Degraded);
         assert_eq!(of(Some(0.05), Some(0.8), ""), Outcome::Degraded);
-        assert_eq!(of(Some(0.01), Some(0.8), "a part"), Outcome::Degraded);
+        assert_eq!(of(Some(0.009), Some(0.8), "a part"), Outcome::Degraded);
         assert_eq!(of(Some(0.3), Some(0.8), ""), Outcome::Fails);
         assert_eq!(of(Some(f64::NAN), Some(0.8), ""), Outcome::Fails);
         assert_eq!(of(None, Some(0.8), ""), Outcome::Fails);

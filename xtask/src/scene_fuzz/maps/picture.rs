@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use super::edges::Grid;
-use super::outcome::{Cell, Outcome};
+use super::outcome::{APART, Cell, EVEN, Outcome};
 use super::panel::Panel;
 
-const TILE: [f64; 2] = [27.0, 20.0];
+const TILE: [f64; 2] = [30.0, 20.0];
 const LEFT: f64 = 190.0;
 const TOP: f64 = 118.0;
 /// Below a panel, for the axis.
@@ -25,27 +25,30 @@ fn ink(outcome: Outcome) -> [&'static str; 3] {
     }
 }
 
-/// What stands in a tile.
+/// What stands in a tile: the number that its colour is for.
 fn sign(cell: &Cell) -> String {
     let [.., sign] = ink(cell.outcome);
-    match cell.linf {
-        Some(linf) if sign.is_empty() => {
-            let percent = 100.0 * linf;
-            let digits = if percent < 0.095 {
-                2
-            } else {
-                usize::from(percent < 9.95)
-            };
-            format!("{percent:.digits$}")
-        }
-        _ => sign.to_owned(),
+    let Some(linf) = cell.linf.filter(|_| sign.is_empty()) else {
+        return sign.to_owned();
+    };
+    match cell.closest {
+        _ if cell.outcome == Outcome::Passes || linf > EVEN => {}
+        Some(closest) if closest < APART => return format!("p.{:02.0}", 100.0 * closest),
+        _ => return "out".to_owned(),
     }
+    let percent = 100.0 * linf;
+    let digits = if percent < 0.095 {
+        2
+    } else {
+        usize::from(percent < 9.95)
+    };
+    format!("{percent:.digits$}")
 }
 
 /// Panels below each other.
 pub(super) fn svg(title: &str, panels: &[(&Panel, Grid)]) -> String {
     let columns = panels.iter().map(|(panel, _)| panel.x.count()).max();
-    let width = (LEFT + TILE[0] * columns.unwrap_or(0) as f64 + 24.0).max(720.0);
+    let width = (LEFT + TILE[0] * columns.unwrap_or(0) as f64 + 24.0).max(780.0);
     let rows: usize = panels.iter().map(|(panel, _)| panel.y.count()).sum();
     let height = TOP + TILE[1] * rows as f64 + (ABOVE + BELOW) * panels.len() as f64;
     let mut out = format!(
@@ -80,8 +83,8 @@ fn legend(out: &mut String) {
     }
     let _ = writeln!(
         out,
-        "<text x=\"16\" y=\"76\" fill=\"#444\">Numbers: L∞, the largest deviation of the density, in %. Passes: at most 2 %, pairs 0.6 ∆s apart, nothing left out.</text>\n\
-         <text x=\"16\" y=\"93\" fill=\"#444\">Degraded: right, but less even than that, or a part got no particles, with a warning. White: not run.</text>"
+        "<text x=\"16\" y=\"76\" fill=\"#444\">0.4: L∞, the largest deviation of the density, in %. p.55: a pair 0.55 ∆s apart. out: a part without particles, with a warning.</text>\n\
+         <text x=\"16\" y=\"93\" fill=\"#444\">Passes: right, L∞ at most 1 %, pairs at least 0.6 ∆s apart, nothing left out. Degraded: right, but not that. White: not run.</text>"
     );
 }
 
@@ -168,6 +171,10 @@ mod tests {
         assert_eq!(sign(&cell(0.0123, Outcome::Passes)), "1.2");
         assert_eq!(sign(&cell(0.123, Outcome::Degraded)), "12");
         assert_eq!(sign(&cell(0.9, Outcome::Fails)), "✕");
+        let mut near = cell(0.001, Outcome::Degraded);
+        assert_eq!(sign(&near), "out");
+        near.closest = Some(0.553);
+        assert_eq!(sign(&near), "p.55");
         let grid =
             vec![vec![Some(cell(0.05, Outcome::Degraded)); panel.x.count()]; panel.y.count()];
         let text = svg("Corners", &[(panel, grid)]);

@@ -46,7 +46,7 @@ pub(super) const MAPS: [Map; 11] = [
     Map {
         name: "resolution",
         title: "Resolution",
-        about: "How many particles a whole body must have along its length.",
+        about: "How many particles a whole body must have along its length. (The bunny of the papers is no row: it needs a file.)",
         panels: &[resolution::PLANE, resolution::SPACE],
         pins: &[],
     },
