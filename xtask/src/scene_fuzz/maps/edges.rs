@@ -1,7 +1,7 @@
 //! Where a map's edges lie, in sentences that are computed from its cells.
 
 use super::outcome::{Cell, Outcome};
-use super::panel::Panel;
+use super::panel::{Panel, Ticks};
 
 /// Rows of cells, the first y first.
 pub(super) type Grid = Vec<Vec<Option<Cell>>>;
@@ -21,9 +21,9 @@ pub(super) fn sentences(panel: &Panel, grid: &Grid) -> String {
             )
         })
         .filter(|(count, _)| *count > 0)
-        .map(|(count, outcome)| format!("{} {count}", outcome.words()))
+        .map(|(count, outcome)| format!("{}: {count}", outcome.words()))
         .collect();
-    let mut text = format!("Of {all} scenes: {}.", counts.join(", "));
+    let mut text = format!("{all} scenes, {}.", counts.join("; "));
     let passes = |cell: &Cell| cell.outcome == Outcome::Passes;
     let holds = |cell: &Cell| matches!(cell.outcome, Outcome::Passes | Outcome::Degraded);
     let label = panel.x.label;
@@ -83,26 +83,43 @@ fn common(panel: &Panel, grid: &Grid, holds: impl Fn(&Cell) -> bool) -> Option<[
     Some(all)
 }
 
-/// Rows in which it holds somewhere, each with its range.
+/// Rows in which it holds somewhere, those of one range together.
 fn best_rows(panel: &Panel, grid: &Grid, holds: impl Fn(&Cell) -> bool) -> String {
-    let rows: Vec<String> = (grid.iter().enumerate())
-        .filter_map(|(y, row)| {
-            let range = range(panel, row, &holds)?;
-            Some(format!(
+    let mut groups: Vec<([usize; 2], Vec<usize>)> = Vec::new();
+    for (y, row) in grid.iter().enumerate() {
+        let Some(range) = range(panel, row, &holds) else {
+            continue;
+        };
+        match groups.iter_mut().find(|(other, _)| *other == range) {
+            Some((_, rows)) => rows.push(y),
+            None => groups.push((range, vec![y])),
+        }
+    }
+    if groups.is_empty() {
+        let home = super::panel::number(panel.home);
+        return format!(" At {home} {} nothing passes.", panel.x.label);
+    }
+    let parts: Vec<String> = (groups.iter())
+        .map(|(range, rows)| {
+            format!(
                 "{} ({})",
-                range_words(panel, range),
-                panel.y.word(y)
-            ))
+                range_words(panel, *range),
+                row_words(panel, rows)
+            )
         })
         .collect();
-    if rows.is_empty() {
-        return format!(
-            " At {} {} nothing passes.",
-            super::panel::number(panel.home),
-            panel.x.label
-        );
+    format!(" Passes, {}: {}.", panel.x.label, parts.join("; "))
+}
+
+/// The names of rows; of numbers that follow each other the first and the last.
+fn row_words(panel: &Panel, rows: &[usize]) -> String {
+    let [first, last] = [rows[0], rows[rows.len() - 1]];
+    let are_numbers = matches!(panel.y.ticks, Ticks::Numbers(_));
+    if are_numbers && rows.len() > 2 && last - first + 1 == rows.len() {
+        return format!("{} to {}", panel.y.word(first), panel.y.word(last));
     }
-    format!(" Passes, {}: {}.", panel.x.label, rows.join("; "))
+    let names: Vec<String> = rows.iter().map(|row| panel.y.word(*row)).collect();
+    names.join(", ")
 }
 
 /// "from 2 to 6", or from or up to one of them where the other is the axis's end.

@@ -23,7 +23,7 @@ pub(super) const SQUARE: Panel = Panel {
     title: "In the plane: a square of 9 ∆s, turned by 20 degrees",
     x: Axis::numbers("h/∆s", RATIOS),
     y: Axis::words("kernel", NAMES),
-    home: 1.2,
+    home: 2.5,
     only: None,
     case: |h, kernel| {
         let points = turned(&rectangle([0.0; 2], [9.0, 9.0]), 20.0);
@@ -35,7 +35,7 @@ pub(super) const BALL: Panel = Panel {
     title: "In space: a ball of 6 ∆s",
     x: Axis::numbers("h/∆s", &[0.8, 1.0, 1.2, 1.5, 2.0, 2.5]),
     y: Axis::words("kernel", NAMES),
-    home: 1.2,
+    home: 2.5,
     only: None,
     case: |h, kernel| {
         let center = [0.1, 0.2, 0.3];

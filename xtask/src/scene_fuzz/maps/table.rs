@@ -1,10 +1,14 @@
 //! All maps, declared: what each is about, its panels, and pins on both sides of its edge.
 
-use super::outcome::Outcome::{Degraded, Passes, Refused, Said};
+use super::outcome::Outcome::{self, Degraded, Passes, Refused, Said};
 use super::panel::{Map, Pin};
 use super::{
     corner, curvature, dirt, gap, kernels, parts, resolution, settings, thin, units, wall,
 };
+
+const fn pin(panel: usize, at: [f64; 2], outcome: Outcome) -> Pin {
+    Pin { panel, at, outcome }
+}
 
 /// In the order of the page.
 pub(super) const MAPS: [Map; 11] = [
@@ -13,21 +17,21 @@ pub(super) const MAPS: [Map; 11] = [
         title: "Corners",
         about: "How sharp a corner may be, inside the body (a tip) and outside it (a notch), and how long its sides must be.",
         panels: &[corner::PLANE, corner::WEDGE, corner::CONE],
-        pins: &[],
+        pins: &[pin(0, [2.0, 3.0], Degraded), pin(0, [8.0, 3.0], Passes)],
     },
     Map {
         name: "thin",
         title: "Thin bodies",
         about: "How thin a strip or a plate may be.",
         panels: &[thin::STRIP, thin::PLATE],
-        pins: &[],
+        pins: &[pin(0, [0.02, 0.0], Degraded), pin(0, [0.05, 0.0], Passes)],
     },
     Map {
         name: "gap",
         title: "Gaps",
         about: "How near two bodies, two shells or the sides of a slit may come.",
         panels: &[gap::PLANE],
-        pins: &[],
+        pins: &[pin(0, [0.3, 0.0], Degraded), pin(0, [0.6, 0.0], Passes)],
     },
     Map {
         name: "parts",
@@ -41,7 +45,7 @@ pub(super) const MAPS: [Map; 11] = [
         title: "Round walls",
         about: "How small the radius of a wall may be, seen from inside and from outside.",
         panels: &[curvature::PLANE, curvature::SPACE],
-        pins: &[],
+        pins: &[pin(0, [0.7, 1.0], Degraded), pin(0, [0.8, 1.0], Passes)],
     },
     Map {
         name: "resolution",
@@ -55,7 +59,7 @@ pub(super) const MAPS: [Map; 11] = [
         title: "Sides of the box",
         about: "How near a side of the box a body may come, on it, beyond it, and across a periodic seam.",
         panels: &[wall::PLANE],
-        pins: &[],
+        pins: &[pin(0, [0.25, 0.0], Degraded), pin(0, [0.5, 0.0], Passes)],
     },
     Map {
         name: "dirt",
@@ -82,13 +86,13 @@ pub(super) const MAPS: [Map; 11] = [
         title: "Kernels",
         about: "Which kernels pack at which smoothing length.",
         panels: &[kernels::SQUARE, kernels::BALL],
-        pins: &[],
+        pins: &[pin(0, [1.0, 2.0], Degraded), pin(0, [1.1, 2.0], Passes)],
     },
     Map {
         name: "units",
         title: "Units and places",
         about: "Whether the unit of length and the distance from the origin matter.",
         panels: &[units::PLANE, units::SPACE],
-        pins: &[],
+        pins: &[pin(0, [1.0, 1e12], Said), pin(0, [1.0, 1e10], Passes)],
     },
 ];

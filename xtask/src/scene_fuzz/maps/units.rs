@@ -9,7 +9,7 @@ const UNITS: &[f64] = &[
     1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6,
 ];
 
-const SHIFTS: &[f64] = &[0.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
+const SHIFTS: &[f64] = &[0.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e8, 1e10, 1e12];
 
 pub(super) const PLANE: Panel = Panel {
     title: "In the plane: a disc and an airfoil",
