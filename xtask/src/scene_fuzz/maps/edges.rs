@@ -32,7 +32,7 @@ pub(super) fn sentences(panel: &Panel, grid: &Grid) -> String {
             text += &format!(
                 " Every row passes with {label}: {}.",
                 range_words(panel, range)
-            )
+            );
         }
         None => text += &best_rows(panel, grid, passes),
     }
@@ -42,20 +42,18 @@ pub(super) fn sentences(panel: &Panel, grid: &Grid) -> String {
         }
         _ => {}
     }
-    let worst = cells()
-        .filter(|cell| passes(cell))
-        .filter_map(|cell| cell.linf);
-    let closest = cells()
-        .filter(|cell| passes(cell))
-        .filter_map(|cell| cell.closest);
-    let (worst, closest) = (
-        worst.fold(0.0, f64::max),
-        closest.fold(f64::INFINITY, f64::min),
-    );
+    let most = |of: fn(&Cell) -> Option<f64>, sign: f64| {
+        let values = cells().filter(|cell| passes(cell)).filter_map(of);
+        sign * values
+            .map(|value| sign * value)
+            .fold(f64::NEG_INFINITY, f64::max)
+    };
     if cells().any(passes) {
         text += &format!(
-            " Of those that pass, the largest L∞ is {:.2} %, the closest pair {closest:.2} ∆s.",
-            100.0 * worst
+            " Of those that pass, L∞ is {:.2} to {:.2} %, the closest pair {:.2} ∆s.",
+            100.0 * most(|cell| cell.linf, -1.0),
+            100.0 * most(|cell| cell.linf, 1.0),
+            most(|cell| cell.closest, -1.0)
         );
     }
     text
@@ -152,7 +150,7 @@ mod tests {
 
     #[test]
     fn edges_are_found_from_the_home_outward() {
-        let panel = &MAPS[1].panels[0];
+        let panel = &MAPS[2].panels[0];
         let count = panel.x.count();
         let row = |from: usize| -> Vec<Option<Cell>> {
             (0..count)

@@ -46,7 +46,8 @@ pub(crate) struct Settings {
 }
 
 /// The names of the maps, as an argument.
-const NAMES: &str = "corner|thin|gap|parts|curvature|resolution|wall|dirt|parameters|kernel|units";
+const NAMES: &str =
+    "corner|edge|thin|gap|parts|curvature|resolution|wall|dirt|parameters|kernel|units";
 
 impl Settings {
     /// The arguments that say it.

@@ -11,13 +11,20 @@ const fn pin(panel: usize, at: [f64; 2], outcome: Outcome) -> Pin {
 }
 
 /// In the order of the page.
-pub(super) const MAPS: [Map; 11] = [
+pub(super) const MAPS: [Map; 12] = [
     Map {
         name: "corner",
         title: "Corners",
         about: "How sharp a corner may be, inside the body (a tip) and outside it (a notch), and how long its sides must be.",
-        panels: &[corner::PLANE, corner::WEDGE, corner::CONE],
+        panels: &[corner::PLANE],
         pins: &[pin(0, [2.0, 3.0], Degraded), pin(0, [8.0, 3.0], Passes)],
+    },
+    Map {
+        name: "edge",
+        title: "Edges and tips in space",
+        about: "How sharp an edge and the tip of a cone may be.",
+        panels: &[corner::WEDGE, corner::CONE],
+        pins: &[pin(0, [5.0, 3.0], Degraded), pin(0, [90.0, 3.0], Passes)],
     },
     Map {
         name: "thin",
@@ -38,7 +45,7 @@ pub(super) const MAPS: [Map; 11] = [
         title: "Small parts",
         about: "How small the parts of a body may be, how near each other, and how many.",
         panels: &[parts::DISTANCE, parts::NUMBER],
-        pins: &[],
+        pins: &[pin(0, [0.3, 2.0], Degraded), pin(0, [1.0, 2.0], Passes)],
     },
     Map {
         name: "curvature",
@@ -52,7 +59,7 @@ pub(super) const MAPS: [Map; 11] = [
         title: "Resolution",
         about: "How many particles a whole body must have along its length. (The bunny of the papers is no row: it needs a file.)",
         panels: &[resolution::PLANE, resolution::SPACE],
-        pins: &[],
+        pins: &[pin(0, [5.0, 0.0], Degraded), pin(0, [30.0, 0.0], Passes)],
     },
     Map {
         name: "wall",
@@ -66,7 +73,7 @@ pub(super) const MAPS: [Map; 11] = [
         title: "Damaged meshes",
         about: "What may be wrong with a mesh. What is packed is judged by the sound mesh.",
         panels: &[dirt::BALL, dirt::CUBE],
-        pins: &[],
+        pins: &[pin(0, [30.0, 0.0], Refused), pin(0, [0.0, 0.0], Passes)],
     },
     Map {
         name: "parameters",
@@ -79,7 +86,7 @@ pub(super) const MAPS: [Map; 11] = [
             settings::LATTICE,
             settings::SEED,
         ],
-        pins: &[],
+        pins: &[pin(0, [100.0, 3.0], Refused), pin(0, [30.0, 3.0], Passes)],
     },
     Map {
         name: "kernel",
