@@ -7,6 +7,9 @@ use super::super::shape::{MeshFormat, Shape};
 use super::panel::{Axis, Panel};
 use super::scenes::{OFF, scene};
 
+/// How far the corners of neighbours may be from each other, in ∆s, where all triangles are damaged.
+const APART: f64 = 1e-3;
+
 /// A triangle by its own corners, as STL files have them.
 type Facet = [[f64; 3]; 3];
 
@@ -47,7 +50,8 @@ pub(super) const CUBE: Panel = Panel {
     case: cube,
 };
 
-const LABEL: &str = "triangles that are damaged, %; noise and distance of corners, % of ∆s; second shell beyond the first, 0.1 ∆s";
+const LABEL: &str =
+    "damaged triangles, %; noise, % of ∆s; corners apart by 10⁻⁵ ∆s; second shell beyond by 0.1 ∆s";
 
 /// Where the cube begins and ends.
 const LOW: [f64; 3] = [OFF[0], OFF[1], 0.2];
@@ -155,8 +159,9 @@ fn dirty(sound: Vec<Facet>, share: f64, kind: usize) -> Case {
             meant.clone_from(&facets);
         }
         _ => {
+            let far = APART * share;
             for x in facets.iter_mut().flatten().flatten() {
-                *x += random.between(-share, share);
+                *x += random.between(-far, far);
             }
         }
     }

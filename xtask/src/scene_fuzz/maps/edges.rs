@@ -28,13 +28,13 @@ pub(super) fn sentences(panel: &Panel, grid: &Grid) -> String {
     let holds = |cell: &Cell| matches!(cell.outcome, Outcome::Passes | Outcome::Degraded);
     let label = panel.x.label;
     match common(panel, grid, passes) {
-        Some(range) => {
+        Some(range) if range[0] < range[1] => {
             text += &format!(
                 " Every row passes with {label}: {}.",
                 range_words(panel, range)
             );
         }
-        None => text += &best_rows(panel, grid, passes),
+        _ => text += &best_rows(panel, grid, passes),
     }
     match common(panel, grid, holds) {
         Some(range) if Some(range) != common(panel, grid, passes) => {

@@ -181,7 +181,7 @@ mod tests {
         let document = roxmltree::Document::parse(&text).expect("a picture");
         let tiles = document
             .descendants()
-            .filter(|node| node.text() == Some("5.0"));
+            .filter(|node| node.is_element() && node.text() == Some("5.0"));
         assert_eq!(tiles.count(), panel.x.count() * panel.y.count());
     }
 }
