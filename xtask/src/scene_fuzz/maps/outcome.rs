@@ -140,18 +140,32 @@ fn left_out(trial: &Trial) -> String {
         .to_owned()
 }
 
-/// The last words of the command.
+/// What the command said at its end: its message, what is not as it should be, and what its audit found.
 fn said(trial: &Trial) -> String {
     let words = format!("{}\n{}", trial.pack.output, trial.pack.errors);
-    let lines = (words.lines()).filter(|line| !line.contains("warning:"));
-    let told = |line: &&str| line.starts_with("sphpack:") || line.contains("not ");
-    let all: Vec<&str> = lines.filter(told).map(str::trim).collect();
+    let mut is_found = false;
+    let mut all = Vec::new();
+    for line in words.lines().filter(|line| !line.contains("warning:")) {
+        if is_found || line.starts_with("sphpack:") || line.contains("not ") {
+            all.push(line.trim());
+        }
+        is_found = line.contains("audit ") && line.contains("FAILED");
+    }
     all.join(" ").chars().take(300).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_was_said_is_kept() {
+        let mut trial = Trial::default();
+        trial.pack.output =
+            "  packed  density 1\n  audit   FAILED; marked\n   two are near\n  wrote".to_owned();
+        trial.pack.errors = "sphpack: warning: thin\nsphpack: it is thin".to_owned();
+        assert_eq!(said(&trial), "two are near sphpack: it is thin");
+    }
 
     #[test]
     fn what_is_right_may_be_uneven() {

@@ -17,8 +17,8 @@ const HEAD: &str = "# Failure maps: what to expect at your corner
 Where each method stops working: how sharp, how thin, how near, how small. Look for what your body has that is out of the
 ordinary, and read off whether to expect an even packing, an uneven one, or a message.
 
-Each tile of a map is one scene, packed by the command as you would run it, all settings the defaults, and judged by a program that
-shares no code with it ([reliability.md](reliability.md)): every body has its volume, no particle is on the wrong side, no two are
+Each tile of a map is one scene, packed by the command as you would run it, all settings the defaults but those that the map is of, and
+judged by a program that shares no code with it ([reliability.md](reliability.md)): every body has its volume, no particle is on the wrong side, no two are
 nearer than half a spacing, all sums are what brute force says.
 
 - **passes**: so judged, the density's largest deviation from its median (L∞, the number in the tile, in %) is at most 1 %, and no pair
