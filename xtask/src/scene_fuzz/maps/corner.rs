@@ -27,7 +27,7 @@ pub(super) const WEDGE: Panel = Panel {
     title: "In space: a wedge, 5 ∆s wide",
     x: Axis::numbers("angle of the edge, degrees", SPACE_ANGLES),
     y: Axis::numbers("length of the sides, ∆s", SPACE_SIDES),
-    home: 90.0,
+    home: 150.0,
     only: None,
     case: wedge,
 };
@@ -36,7 +36,7 @@ pub(super) const CONE: Panel = Panel {
     title: "In space: a cone of 24 sides",
     x: Axis::numbers("opening angle, degrees", SPACE_ANGLES),
     y: Axis::numbers("length of the sides, ∆s", SPACE_SIDES),
-    home: 90.0,
+    home: 150.0,
     only: None,
     case: cone,
 };

@@ -144,10 +144,11 @@ fn draw(out: &mut String, panel: &Panel, grid: &Grid, top: f64) {
         floor + 34.0,
         panel.x.label
     );
-    let middle = 0.5 * (top + floor);
     let _ = writeln!(
         out,
-        "<text transform=\"translate(22 {middle:.0}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        "<text x=\"{:.0}\" y=\"{:.0}\" text-anchor=\"end\">{}</text>",
+        LEFT - 8.0,
+        top - 8.0,
         panel.y.label
     );
 }

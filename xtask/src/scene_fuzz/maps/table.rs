@@ -24,7 +24,7 @@ pub(super) const MAPS: [Map; 12] = [
         title: "Edges and tips in space",
         about: "How sharp an edge and the tip of a cone may be.",
         panels: &[corner::WEDGE, corner::CONE],
-        pins: &[pin(0, [5.0, 3.0], Degraded), pin(0, [90.0, 3.0], Passes)],
+        pins: &[pin(0, [90.0, 3.0], Degraded), pin(0, [90.0, 5.0], Passes)],
     },
     Map {
         name: "thin",
