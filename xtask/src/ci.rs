@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use crate::scene_fuzz::{self, faults, files, kills};
+use crate::scene_fuzz::{self, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{balanced, bodies, front, reproduction, stability, tidy, variable};
@@ -64,6 +64,7 @@ pub(crate) fn run() -> Result<(), String> {
     };
     reproduction::run(&reproduction::Settings::quick())?;
     stability::run(&stability::Settings::quick())?;
+    maps::run(&maps::Settings::quick())?;
     balanced::run(&quick)?;
     front::run(&front::Settings::quick())?;
     variable::run(&quick)?;

@@ -1,7 +1,7 @@
 //! Every task: its name, what it knows, what it does.
 
 use crate::arguments::Arguments;
-use crate::scene_fuzz::{self, estimates, faults, files, kills};
+use crate::scene_fuzz::{self, estimates, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
@@ -24,7 +24,7 @@ pub(crate) struct Task {
 }
 
 /// In the order of the usage; of one name the forms with flags come first.
-pub(crate) const TASKS: [Task; 21] = [
+pub(crate) const TASKS: [Task; 22] = [
     Task {
         name: "ci",
         known: &[],
@@ -225,6 +225,19 @@ pub(crate) const TASKS: [Task; 21] = [
         read: |given| {
             let settings = stability::Settings::of(given)?;
             Ok(Box::new(move || stability::run(&settings)))
+        },
+    },
+    Task {
+        name: "stability map",
+        known: maps::Settings::KNOWN,
+        about: &[
+            "where methods fail: grids of scenes, packed by the command and judged by brute force, one map or all;",
+            "goes on where it was stopped; --method makes those of one method, --quick the pinned cells only,",
+            "--program names the command, where it is not to be built, --write also writes docs/failure-maps.md",
+        ],
+        read: |given| {
+            let settings = maps::Settings::of(given)?;
+            Ok(Box::new(move || maps::run(&settings)))
         },
     },
     Task {

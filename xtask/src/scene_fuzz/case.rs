@@ -21,6 +21,8 @@ pub(super) enum Role {
 pub(super) struct Body {
     pub(super) name: String,
     pub(super) shape: Shape,
+    /// What a damaged file stands for; `None`: its shape is what it says.
+    pub(super) meant: Option<Shape>,
     pub(super) scale: f64,
     /// In the plane about z.
     pub(super) rotate: Option<([f64; 3], f64)>,
@@ -39,6 +41,7 @@ impl Body {
         Self {
             name: name.to_owned(),
             shape,
+            meant: None,
             scale: 1.0,
             rotate: None,
             translate: None,
@@ -121,9 +124,9 @@ impl Case {
         for body in &mut new.bodies {
             body.spacing = body.spacing.map(|spacing| spacing * unit);
             let stays = body.translate.is_some() || !body.shape.can_shift();
-            body.shape = body
-                .shape
-                .placed(unit, if stays { &nowhere } else { origin });
+            let to = if stays { &nowhere } else { origin };
+            body.shape = body.shape.placed(unit, to);
+            body.meant = body.meant.as_ref().map(|meant| meant.placed(unit, to));
             if matches!(body.shape, Shape::Airfoil { .. }) {
                 body.scale *= unit;
             }

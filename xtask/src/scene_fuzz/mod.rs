@@ -10,6 +10,8 @@ mod generate;
 mod judge;
 mod kernel;
 pub(crate) mod kills;
+pub(crate) mod maps;
+mod meshes;
 pub(crate) mod random;
 mod rows;
 mod shape;

@@ -1,7 +1,6 @@
 //! Random scenes.
 
 mod blobs;
-mod meshes;
 mod plane;
 mod settings;
 mod solids;

@@ -1,9 +1,10 @@
 //! Shapes of space that fit into a ball.
 
 use super::super::case::Body;
+use super::super::meshes;
 use super::super::random::Random;
 use super::super::shape::{MeshFormat, Shape};
-use super::{Digits, meshes};
+use super::Digits;
 
 /// A direction of any length.
 fn axis(random: &mut Random) -> [f64; 3] {

@@ -1,10 +1,11 @@
 //! Bodies in space.
 
 use super::super::case::{Body, Role};
+use super::super::meshes;
 use super::super::random::Random;
 use super::super::shape::{MeshFormat, Shape};
 use super::solids::solid;
-use super::{Arrangement, Room, meshes};
+use super::{Arrangement, Room};
 
 pub(super) fn bodies(random: &mut Random, room: &Room, arrangement: Arrangement) -> Vec<Body> {
     match arrangement {

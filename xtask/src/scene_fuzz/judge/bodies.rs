@@ -188,15 +188,30 @@ fn volumes(scene: &Scene<'_>, faults: &mut Faults) {
 
 /// The volume of a body's parts that get no particles, as warnings name them, each of less than `most`.
 fn omitted(scene: &Scene<'_>, name: &str, most: f64) -> f64 {
+    let is_alone = scene.truth.bodies.len() == 1;
     let warnings = scene.report.get("warnings").and_then(|all| all.as_array());
-    let volume = |words: &str| -> Option<f64> {
+    let named = |words: &str| -> Option<f64> {
         let (part, rest) = words.split_once(" gets no particles: its volume ")?;
-        let is_own = part.starts_with(&format!("a part of body \"{name}\" "));
+        // Of a body that gets none at all it is not said that it is a part.
+        let part = part.strip_prefix("a part of ").unwrap_or(part);
+        let is_own = part.starts_with(&format!("body \"{name}\" "));
         let volume: f64 = rest.split(' ').next()?.parse().ok()?;
         (is_own && volume < most).then_some(volume)
     };
+    // Where there are many parts the rest is told by its number and volume, in particles to two digits.
+    let others = |words: &str| -> Option<f64> {
+        let (count, rest) =
+            words.split_once(" more parts get no particles; the volume of all of them is ")?;
+        let (count, particles): (f64, f64) =
+            (count.parse().ok()?, rest.split(' ').next()?.parse().ok()?);
+        let volume = 2.0 * most * (particles + 0.005);
+        (is_alone && volume < most * (count + 0.5)).then_some(volume)
+    };
     (warnings.into_iter().flatten())
-        .filter_map(|warning| volume(warning.as_str()?))
+        .filter_map(|warning| {
+            let words = warning.as_str()?;
+            named(words).or_else(|| others(words))
+        })
         .sum()
 }
 

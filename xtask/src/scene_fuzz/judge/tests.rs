@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::super::case::Body;
 use super::super::kernel::Kernel;
-use super::super::shape::Shape;
+use super::super::shape::{OutlineFormat, Shape};
 use super::super::trial::Ending;
 use super::*;
 
@@ -359,4 +359,40 @@ fn faults_of_endings_are_found() {
         },
         "panic (hybrid)",
     );
+}
+
+#[test]
+fn parts_that_are_said_to_have_no_particles_are_no_loss() {
+    let classes = |warnings: &[&str]| {
+        let mut made = made();
+        for row in made.rows() {
+            if row.side == "solid" {
+                row.kind = "free".to_owned();
+                row.side = "fluid".to_owned();
+                row.body.clear();
+            }
+        }
+        // Three parts of 0.36 particles, between particles.
+        let loops = [[11.7, 11.7], [11.7, 13.7], [13.7, 11.7]].map(|[x, y]| {
+            let [right, top] = [x + 0.6, y + 0.6];
+            vec![[x, y], [right, y], [right, top], [x, top]]
+        });
+        let shape = Shape::Outline {
+            loops: loops.to_vec(),
+            format: OutlineFormat::Csv,
+        };
+        made.case.bodies = vec![Body::new("b0", shape)];
+        made.measure();
+        report(&mut made)["warnings"] = json!(warnings);
+        made.classes()
+    };
+    let one = "body \"b0\" at (12, 12) gets no particles: its volume 3.600e-1 is 0.36 of a particle's; its room is left";
+    let part = format!("a part of {one}");
+    let two = "2 more parts get no particles; the volume of all of them is 0.72 of a particle's";
+    assert_eq!(classes(&[one, two]), Vec::<String>::new());
+    assert_eq!(classes(&[&part, &part, &part]), Vec::<String>::new());
+    assert_eq!(classes(&[]), ["volume of a body"]);
+    // Parts as large as that have particles.
+    let large = "2 more parts get no particles; the volume of all of them is 1.9 of a particle's";
+    assert_eq!(classes(&[one, large]), ["volume of a body"]);
 }

@@ -13,6 +13,16 @@ pub(super) fn curve(fine: f64, most: f64, at: impl Fn(f64) -> [f64; 2]) -> Vec<[
         .collect()
 }
 
+/// Whether a place lies in a loop.
+fn holds(points: &[[f64; 2]], p: [f64; 2]) -> bool {
+    let sides = (0..points.len()).map(|k| [points[k], points[(k + 1) % points.len()]]);
+    let crossed = sides.filter(|[a, b]| {
+        (a[1] <= p[1]) != (b[1] <= p[1])
+            && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+    });
+    crossed.count() % 2 == 1
+}
+
 /// Closed loops.
 #[derive(Debug, Clone)]
 pub(super) struct Loops {
@@ -63,7 +73,7 @@ impl Loops {
         if is_inside { -nearest } else { nearest }
     }
 
-    /// The first loop's area without that of the holes.
+    /// The area within: loops in an odd number of others are holes.
     pub(super) fn area(&self) -> f64 {
         let area = |points: &[[f64; 2]]| {
             let o = points[0];
@@ -75,8 +85,15 @@ impl Loops {
                 .sum();
             0.5 * twice.abs()
         };
-        let all: Vec<f64> = self.loops.iter().map(|points| area(points)).collect();
-        2.0 * all.iter().copied().fold(0.0, f64::max) - all.iter().sum::<f64>()
+        (self.loops.iter().enumerate())
+            .map(|(own, points)| {
+                let depth = (self.loops.iter().enumerate())
+                    .filter(|(other, around)| *other != own && holds(around, points[0]))
+                    .count();
+                let sign = if depth % 2 == 0 { 1.0 } else { -1.0 };
+                sign * area(points)
+            })
+            .sum()
     }
 
     pub(super) fn bounds(&self) -> [Point; 2] {

@@ -59,7 +59,7 @@ impl True {
             })
         };
         let smooth = |form: Smooth| Form::Smooth(form, place.clone());
-        let form = match &body.shape {
+        let form = match body.meant.as_ref().unwrap_or(&body.shape) {
             Shape::Circle { center, radius } => plane(vec![ring(*center, [*radius; 2])]),
             Shape::Ellipse { center, semi_axes } => plane(vec![ring(*center, *semi_axes)]),
             Shape::Box { min, max } if min.len() == 2 => plane(vec![vec![

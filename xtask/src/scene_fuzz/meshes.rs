@@ -4,7 +4,7 @@
 pub(super) type Mesh = (Vec<[f64; 3]>, Vec<[usize; 3]>);
 
 /// A polygon, counter-clockwise, drawn out along z; `ears` are its triangles.
-fn prism(polygon: &[[f64; 2]], ears: &[[usize; 3]], [bottom, top]: [f64; 2]) -> Mesh {
+pub(super) fn prism(polygon: &[[f64; 2]], ears: &[[usize; 3]], [bottom, top]: [f64; 2]) -> Mesh {
     let n = polygon.len();
     let mut points: Vec<[f64; 3]> = Vec::new();
     for z in [bottom, top] {
