@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use sphpack_geometry::{Ball, Cuboid, GeometryError, Outline, Similarity, Thin};
+use sphpack_geometry::{Ball, Cuboid, GeometryError, Outline, Similarity, Surface, Thin};
 use sphpack_neighbors::{Domain, point};
 
 use crate::minimise::Finish;
@@ -473,4 +473,16 @@ fn parts_that_settle_evenly_keep_their_usual_counts() {
         .count();
     assert_eq!(on_surface, 12);
     assert_eq!(packed.particles.body.iter().flatten().count(), 16);
+}
+
+#[test]
+fn no_particle_slips_into_a_tail() {
+    let wing = Outline::naca("0012", 10.0).expect("an airfoil");
+    let problem = Problem::around(&wing, 0.1).margin(0.6);
+    let packed = pack(&problem);
+    let deepest = (0..packed.particles.len())
+        .filter(|&i| packed.particles.kind[i] == Kind::Free && packed.particles.body[i].is_none())
+        .map(|i| wing.closest(packed.particles.position[i]).distance)
+        .fold(f64::INFINITY, f64::min);
+    assert!(deepest > 0.0, "a particle of the fluid is {deepest} in");
 }
