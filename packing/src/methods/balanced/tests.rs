@@ -153,6 +153,7 @@ fn a_mirrored_or_turned_problem_packs_as_well() {
 #[test]
 fn the_same_bits_for_any_number_of_threads() {
     let flat = arrow_problem(1.0, [0.0; 2]);
+    let tried = small_square(2.5, 1.1);
     let solid = Problem::new(Domain::new([-1.0; 3], [1.0; 3]), 0.2)
         .body("cube", Cuboid::new([-0.5; 3], [0.4; 3]).expect("a cube"));
     let with = |threads: usize| {
@@ -160,7 +161,13 @@ fn the_same_bits_for_any_number_of_threads() {
             .num_threads(threads)
             .build()
             .expect("a thread pool");
-        pool.install(|| (pack(&flat).particles, pack(&solid).particles))
+        pool.install(|| {
+            (
+                pack(&flat).particles,
+                pack(&tried).particles,
+                pack(&solid).particles,
+            )
+        })
     };
     assert!(with(1) == with(2) && with(1) == with(3));
 }

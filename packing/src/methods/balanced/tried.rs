@@ -13,7 +13,7 @@ use sphpack_neighbors::{Domain, point};
 use super::Balanced;
 use super::sampled::Sampled;
 use super::shares::directly_inside;
-use crate::minimise::{Finish, Settling};
+use crate::minimise::Settling;
 use crate::observer::Silent;
 use crate::packed::StopReason;
 use crate::problem::{Body, DEFAULT_INSET_OVER_SPACING, PackingError, Problem};
@@ -92,14 +92,13 @@ pub(super) fn counts<const D: usize>(
     if problem.domain.is_periodic() {
         return counts;
     }
+    // Whatever else is asked for: counts are good or bad by where particles find room, and this settles fastest.
     let method = Balanced {
         settling: Settling {
-            finish: Finish::Even,
-            residual_tolerance: None,
             max_evaluations: EVALUATIONS,
-            ..method.settling
+            ..Settling::default()
         },
-        ..*method
+        band: method.band,
     };
     let inside = directly_inside(&problem.bodies, problem.spacing());
     let small: Vec<usize> = (0..problem.bodies.len())
