@@ -3,8 +3,9 @@
 //! What length and volume ask for is right to half a particle. For a large part that is little; in a square of 2.2 … 2.8 or
 //! 3.2 … 3.4 ∆s it is the difference between five particles of which one has to go between two corners, 0.6 ∆s from
 //! either, and four larger ones in the corners alone. No rule for the counts was found that holds for all sizes, but
-//! for every square of 2 to 4.5 ∆s there are some that settle evenly. So a small part that does not is packed alone with
+//! for nearly all there are some that settle evenly. So a small part that does not is packed alone with
 //! others, in a box of its own, until some do. Parts that are even with the usual counts keep them, and every bit.
+//! The idea is this project's own; `cargo xtask bodies` (docs/bodies.md) and `cargo xtask stability map parts` show what comes of it.
 
 use rayon::prelude::*;
 use sphpack_geometry::{Closest, Surface};
@@ -42,8 +43,8 @@ const TINY: f64 = 4.0;
 /// The room around a part that is packed alone, in ∆s, in the plane and in space.
 const AROUND: [f64; 2] = [4.0, 3.0];
 
-/// The particles of all tries together, beside as many as the whole problem has: so many settle in two to five seconds, in the plane
-/// and in space.
+/// The particles of all tries together, but for those that are tried again, beside as many as the whole problem has: so many settle in
+/// two to five seconds, in the plane and in space.
 const PARTICLES: [f64; 2] = [100_000.0, 15_000.0];
 
 /// Lengths of parts of one shape differ by less than this, in ∆s.
@@ -172,13 +173,12 @@ pub(super) fn sample_anew<const D: usize>(
 ) -> Result<(), PackingError> {
     for (part, counts) in counts.iter().enumerate() {
         let Some(counts) = counts else { continue };
-        let surface = &mut sampled.surfaces[part];
+        let surface = &sampled.surfaces[part].surface;
         sampled.samples[part] =
-            (surface.surface.sample(counts.on_surface)).map_err(|error| PackingError::Surface {
+            (surface.sample(counts.on_surface)).map_err(|error| PackingError::Surface {
                 body: bodies[part].name.clone(),
                 error,
             })?;
-        surface.target_count = sampled.samples[part].len();
     }
     Ok(())
 }

@@ -2,9 +2,15 @@
 
 use std::fmt::Write as _;
 
+use sphpack::picture::text_width;
+
 use super::edges::Grid;
 use super::outcome::{APART, Cell, EVEN, Outcome};
 use super::panel::Panel;
+use crate::drawing;
+
+/// Of letters.
+const SIZE: f64 = 12.0;
 
 const TILE: [f64; 2] = [30.0, 20.0];
 const LEFT: f64 = 190.0;
@@ -51,10 +57,11 @@ pub(super) fn svg(title: &str, panels: &[(&Panel, Grid)]) -> String {
     let width = (LEFT + TILE[0] * columns.unwrap_or(0) as f64 + 24.0).max(780.0);
     let rows: usize = panels.iter().map(|(panel, _)| panel.y.count()).sum();
     let height = TOP + TILE[1] * rows as f64 + (ABOVE + BELOW) * panels.len() as f64;
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"12\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n\
-         <text x=\"16\" y=\"24\" font-size=\"16\">{title}</text>\n"
+    let mut out = drawing::begin(width, height);
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        out,
+        "<g font-size=\"{SIZE}\">\n<text x=\"16\" y=\"24\" font-size=\"16\">{title}</text>"
     );
     legend(&mut out);
     let mut y = TOP;
@@ -62,7 +69,7 @@ pub(super) fn svg(title: &str, panels: &[(&Panel, Grid)]) -> String {
         draw(&mut out, panel, grid, y + ABOVE);
         y += ABOVE + BELOW + TILE[1] * panel.y.count() as f64;
     }
-    out.push_str("</svg>\n");
+    out.push_str("</g>\n</svg>\n");
     out
 }
 
@@ -72,14 +79,13 @@ fn legend(out: &mut String) {
         let [fill, colour, sign] = ink(outcome);
         let sign = if sign.is_empty() { "0.4" } else { sign };
         let words = outcome.words();
-        // Writing to a string cannot fail.
         let _ = writeln!(
             out,
             "<rect x=\"{x:.0}\" y=\"38\" width=\"28\" height=\"18\" fill=\"{fill}\"/><text x=\"{:.0}\" y=\"51\" font-size=\"10\" text-anchor=\"middle\" fill=\"{colour}\">{sign}</text><text x=\"{:.0}\" y=\"51\">{words}</text>",
             x + 14.0,
             x + 34.0
         );
-        x += 54.0 + 6.6 * words.chars().count() as f64;
+        x += 54.0 + text_width(words, SIZE);
     }
     let _ = writeln!(
         out,
