@@ -58,10 +58,15 @@ impl Table {
     /// The particles for which `keep` holds, in the same order.
     #[must_use]
     pub fn filtered(&self, keep: impl Fn(usize) -> bool) -> Self {
+        self.clone().kept(keep)
+    }
+
+    /// [`Table::filtered`], of a table that is not needed any more.
+    pub(crate) fn kept(self, keep: impl Fn(usize) -> bool) -> Self {
         let order: Vec<u32> = (0..self.id.len() as u32)
             .filter(|&i| keep(i as usize))
             .collect();
-        self.clone().in_order(&order)
+        self.in_order(&order)
     }
 
     /// The particles with a true entry in `keep`, by ascending id.

@@ -38,6 +38,8 @@ pub struct DensityQuality {
     pub max: f64,
     /// max |Γ − 1|.
     pub linf: f64,
+    /// max |Γ − Γ₀|, Γ₀ being `lattice`: what no kernel's own bias is part of.
+    pub linf_lattice: f64,
     /// max Γ − min Γ.
     pub total_variation: f64,
     /// Root mean square of Γ − 1.
@@ -197,6 +199,7 @@ impl DensityQuality {
                 min: 0.0,
                 max: 0.0,
                 linf: 0.0,
+                linf_lattice: 0.0,
                 total_variation: 0.0,
                 rms: 0.0,
                 lattice,
@@ -206,6 +209,7 @@ impl DensityQuality {
             min,
             max,
             linf: (max - 1.0).max(1.0 - min),
+            linf_lattice: (max - lattice).max(lattice - min),
             total_variation: max - min,
             rms: (blocked_sum(gamma, |g| (g - 1.0) * (g - 1.0)) / n).sqrt(),
             lattice,

@@ -1,14 +1,15 @@
 //! What paper 001 §3.1.9 proposes to save time, and the capture distances of its first footnote.
 
-use std::fmt::Write as _;
-
+use serde::{Deserialize, Serialize};
 use sphpack::scene::{HybridOptions, Method};
-use sphpack::{Options, Packing, run as pack};
+use sphpack::{Outcome, Packing};
 use sphpack_kernels::KernelKind;
-use sphpack_packing::{Kind, Silent};
+use sphpack_packing::Kind;
 
+use crate::bench::Bench;
 use crate::selection::Selection;
 use crate::shipped::load;
+use crate::shown_table::ShownTable;
 
 pub(crate) const ABOUT: &str = "The hybrid method as
 printed (ε = 10⁻⁴), and with what 001 §3.1.9 proposes, \"up to a factor of two\" and not tried there: 0.9 N_s or all of
@@ -82,8 +83,7 @@ fn options() -> Vec<(&'static str, HybridOptions, f64)> {
 
 /// Both tables.
 pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
-    let mut text = HEAD.to_owned();
-    print!("\n{HEAD}");
+    let mut table = ShownTable::new(HEAD);
     for (name, spacing) in SCENES {
         let mut plain = None;
         for (words, options, tolerance) in options() {
@@ -91,22 +91,19 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
                 continue;
             };
             let most = *plain.get_or_insert([row.iterations as f64, row.work()]);
-            let line = format!(
+            table.push(&format!(
                 "| {name} | {spacing} | {words} | {} | {:.1}, {:.1} | {} | {} |\n",
                 row.iterations,
                 most[0] / row.iterations as f64,
                 most[1] / row.work(),
                 row.moving,
                 row.rest
-            );
-            print!("{line}");
-            text.push_str(&line);
+            ));
         }
     }
     let about = "\nFootnote 1 calls a late capture distance of 0.55 ∆s poor at coarse and one of 0.75 ∆s poor at fine \
                  resolutions. Below\n0.55 ∆s does no harm, and 0.75 ∆s overfills the starfish's surface, most at the coarse spacing.\n";
-    let _ = write!(text, "{about}\n{CAPTURES}");
-    print!("\n{CAPTURES}");
+    let mut captures = ShownTable::new(CAPTURES);
     for (name, spacing) in FINENESS {
         for late in LATE {
             let options = HybridOptions {
@@ -116,18 +113,21 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
             let Some(row) = row(name, spacing, options, 1e-4, selection)? else {
                 continue;
             };
-            let line = format!(
+            captures.push(&format!(
                 "| {name} | {spacing} | {late} | {} | {} |\n",
                 row.iterations, row.rest
-            );
-            print!("{line}");
-            text.push_str(&line);
+            ));
         }
     }
-    Ok(text)
+    Ok(format!(
+        "{}{about}\n{}",
+        table.into_text(),
+        captures.into_text()
+    ))
 }
 
 /// What both tables show.
+#[derive(Debug, Serialize, Deserialize)]
 struct Row {
     iterations: usize,
     moving: usize,
@@ -135,6 +135,23 @@ struct Row {
 }
 
 impl Row {
+    fn of(outcome: &Outcome, reach: f64) -> Self {
+        let report = &outcome.report;
+        Self {
+            iterations: report.iterations,
+            moving: moving(&outcome.packing, reach),
+            rest: format!(
+                "{:.2} % | {:.2} % | {} / {} | {:.2} | {}",
+                100.0 * report.density.linf,
+                100.0 * report.density.total_variation,
+                report.surface.iter().map(|s| s.count).sum::<usize>(),
+                report.surface.iter().map(|s| s.target_count).sum::<usize>(),
+                report.closest_pair_over_spacing,
+                report.stop_reason,
+            ),
+        }
+    }
+
     fn work(&self) -> f64 {
         self.iterations as f64 * self.moving as f64
     }
@@ -175,20 +192,8 @@ fn row(
     scene.quality.kernel = Some(KernelKind::Quintic);
     scene.quality.h_over_spacing = Some(1.2);
     let reach = scene.packing.hybrid.moving.unwrap_or(f64::INFINITY) * spacing;
-    let outcome =
-        pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
-    let report = &outcome.report;
-    Ok(Some(Row {
-        iterations: report.iterations,
-        moving: moving(&outcome.packing, reach),
-        rest: format!(
-            "{:.2} % | {:.2} % | {} / {} | {:.2} | {}",
-            100.0 * report.density.linf,
-            100.0 * report.density.total_variation,
-            report.surface.iter().map(|s| s.count).sum::<usize>(),
-            report.surface.iter().map(|s| s.target_count).sum::<usize>(),
-            report.closest_pair_over_spacing,
-            report.stop_reason,
-        ),
-    }))
+    let bench = Bench::open(&[file!()])?;
+    bench
+        .packed(&scene, |outcome| Row::of(outcome, reach))
+        .map(Some)
 }

@@ -1,18 +1,18 @@
 //! What paper 000's agitators do to a lattice and to a packing (its figs. 7b, 13 and 14b).
 
-use std::fmt::Write as _;
-use std::fs;
-
+use serde::{Deserialize, Serialize};
+use sphpack::Outcome;
 use sphpack::scene::{AgitatorsAre, Method as Named};
-use sphpack::{Options, run as pack};
 use sphpack_kernels::KernelKind;
-use sphpack_packing::{Agitated, Agitators, Lattice, Method, Packed, Silent};
+use sphpack_packing::{Agitated, Agitators, Lattice, Method, Packed};
 
+use crate::bench::Bench;
 use crate::chart::{Axis, Chart, Scale, Series};
 use crate::reproduction::{REVOLUTION, Stirred};
 use crate::selection::Selection;
 use crate::shipped::load;
-use crate::workspace::root;
+use crate::shown_table::ShownTable;
+use crate::workspace::write;
 
 pub(crate) const ABOUT: &str = "
 ![Error of the density after an agitator in a lattice has become free](agitators.svg)
@@ -56,15 +56,15 @@ const SCENES: [(&str, f64); 6] = [
 
 /// Both tables; the chart where the page is written.
 pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
-    let mut text = LATTICES.to_owned();
-    print!("\n{LATTICES}");
+    let bench = Bench::open(&[file!(), "xtask/src/reproduction/trials/stirred.rs"])?;
+    let mut lattices = ShownTable::new(LATTICES);
     let mut curves = Vec::new();
     if selection.only.is_none() {
         for lattice in [Lattice::Hexagonal, Lattice::Square] {
-            stirred::<2>(lattice, &mut text, &mut curves)?;
+            stirred::<2>(lattice, &bench, &mut lattices, &mut curves)?;
         }
         for lattice in [Lattice::Hcp, Lattice::SimpleCubic] {
-            stirred::<3>(lattice, &mut text, &mut Vec::new())?;
+            stirred::<3>(lattice, &bench, &mut lattices, &mut Vec::new())?;
         }
     }
     if selection.write {
@@ -82,11 +82,9 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
             ],
             series: curves,
         };
-        let path = root().join("docs/agitators.svg");
-        fs::write(&path, chart.svg()).map_err(|error| format!("{}: {error}", path.display()))?;
+        write("docs/agitators.svg", &chart.svg())?;
     }
-    let _ = write!(text, "{ABOUT_PACKINGS}\n{PACKINGS}");
-    print!("\n{PACKINGS}");
+    let mut packings = ShownTable::new(PACKINGS);
     for (name, spacing) in SCENES {
         if !selection.wants(name, name == "cylinder") {
             continue;
@@ -104,31 +102,38 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
             scene.packing.agitated.agitators = agitators;
             scene.quality.kernel = Some(KernelKind::Quintic);
             scene.quality.h_over_spacing = Some(1.2);
-            let outcome = pack(&scene, &Options::default(), &mut Silent)
-                .map_err(|error| error.to_string())?;
-            let report = &outcome.report;
-            let line = format!(
-                "| {name} | {spacing} | {words} | {:.2} % | {:.2} % | {:+.2} % | {} / {} | {:.2} | {} | {} |\n",
-                100.0 * report.density.linf,
-                100.0 * report.density.total_variation,
-                100.0 * (report.bodies[0].volume / report.bodies[0].volume_true - 1.0),
-                report.surface[0].count,
-                report.surface[0].target_count,
-                report.closest_pair_over_spacing,
-                report.iterations,
-                report.stop_reason,
-            );
-            print!("{line}");
-            text.push_str(&line);
+            let figures = bench.packed(&scene, figures)?;
+            packings.push(&format!("| {name} | {spacing} | {words} | {figures} |\n"));
         }
     }
-    Ok(text)
+    Ok(format!(
+        "{}{ABOUT_PACKINGS}\n{}",
+        lattices.into_text(),
+        packings.into_text()
+    ))
+}
+
+/// A packing's row, from L∞ on.
+fn figures(outcome: &Outcome) -> String {
+    let report = &outcome.report;
+    format!(
+        "{:.2} % | {:.2} % | {:+.2} % | {} / {} | {:.2} | {} | {}",
+        100.0 * report.density.linf,
+        100.0 * report.density.total_variation,
+        100.0 * (report.bodies[0].volume / report.bodies[0].volume_true - 1.0),
+        report.surface[0].count,
+        report.surface[0].target_count,
+        report.closest_pair_over_spacing,
+        report.iterations,
+        report.stop_reason,
+    )
 }
 
 /// A lattice with each of the paper's forces and each agitator.
 fn stirred<const D: usize>(
     lattice: Lattice,
-    text: &mut String,
+    bench: &Bench,
+    table: &mut ShownTable,
     curves: &mut Vec<Series>,
 ) -> Result<(), String>
 where
@@ -145,35 +150,55 @@ where
                 agitators,
                 revolutions: 25,
             };
-            let packed: Packed<D> = trial.packed()?;
-            let at = |iteration: usize| {
-                (packed.history.iter())
-                    .find(|sample| sample.evaluation >= iteration)
-                    .map_or(f64::NAN, |sample| 100.0 * sample.linf)
-            };
-            let while_it_runs = (packed.history.iter())
-                .filter(|sample| sample.evaluation <= REVOLUTION / 2)
-                .fold(0.0, |most: f64, sample| most.max(100.0 * sample.linf));
-            let start = 100.0 * (packed.problem.perfect_gamma() - 1.0).abs();
-            let line = format!(
-                "| {lattice} | {forces} | {words} | {start:.3} % | {while_it_runs:.3} % | {:.3} % | {:.3} % | {:.3} % |\n",
-                at(REVOLUTION / 2),
-                at(5 * REVOLUTION),
-                at(25 * REVOLUTION),
-            );
-            print!("{line}");
-            text.push_str(&line);
+            let course = bench.once(&format!("{trial:?}"), || {
+                trial.packed().map(|packed: Packed<D>| Course::of(&packed))
+            })?;
+            let [half, five, all] = course.after;
+            table.push(&format!(
+                "| {lattice} | {forces} | {words} | {:.3} % | {:.3} % | {half:.3} % | {five:.3} % | {all:.3} % |\n",
+                course.start, course.while_it_runs,
+            ));
             if agitators == Agitators::Turning {
                 curves.push(Series {
                     name: format!("{lattice}, {forces}"),
-                    points: (packed.history.iter())
-                        .filter(|sample| sample.evaluation % 1000 == 0)
-                        .map(|sample| [sample.evaluation as f64, 100.0 * sample.linf])
-                        .collect(),
+                    points: course.points,
                     joined: true,
                 });
             }
         }
     }
     Ok(())
+}
+
+/// Errors in per cent.
+#[derive(Debug, Serialize, Deserialize)]
+struct Course {
+    start: f64,
+    /// The largest.
+    while_it_runs: f64,
+    /// After half a revolution, five, and all.
+    after: [f64; 3],
+    /// Every thousandth iteration with its error.
+    points: Vec<[f64; 2]>,
+}
+
+impl Course {
+    fn of<const D: usize>(packed: &Packed<D>) -> Self {
+        let at = |iteration: usize| {
+            (packed.history.iter())
+                .find(|sample| sample.evaluation >= iteration)
+                .map_or(f64::NAN, |sample| 100.0 * sample.linf)
+        };
+        Self {
+            start: 100.0 * (packed.problem.perfect_gamma() - 1.0).abs(),
+            while_it_runs: (packed.history.iter())
+                .filter(|sample| sample.evaluation <= REVOLUTION / 2)
+                .fold(0.0, |most: f64, sample| most.max(100.0 * sample.linf)),
+            after: [REVOLUTION / 2, 5 * REVOLUTION, 25 * REVOLUTION].map(at),
+            points: (packed.history.iter())
+                .filter(|sample| sample.evaluation % 1000 == 0)
+                .map(|sample| [sample.evaluation as f64, 100.0 * sample.linf])
+                .collect(),
+        }
+    }
 }

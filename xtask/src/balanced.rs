@@ -1,17 +1,19 @@
 //! The balanced method against its bars, scene by scene.
 
 use std::fmt::Write as _;
-use std::fs;
 
+use serde::{Deserialize, Serialize};
 use sphpack::scene::{Finish, Masses};
-use sphpack::{Options, Outcome, run as pack};
-use sphpack_packing::{DensityQuality, Kind, Silent};
+use sphpack::{Outcome, Scene};
+use sphpack_packing::Kind;
 
 use crate::balanced_rows::{ROWS, Row};
+use crate::bench::Bench;
 use crate::dial;
 use crate::selection::Selection;
 use crate::shipped::load;
-use crate::workspace::root;
+use crate::shown_table::ShownTable;
+use crate::workspace::write;
 
 const HEAD: &str = "\
 | scene | ∆s | finish | evaluations (bar) | L∞ (bar) | prototype | total variation | 99 % within | worst sits | \
@@ -19,19 +21,19 @@ residual of free max, rms | on the surface / N_s | spacing CV | closest pair / �
 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
 ";
 
-/// Packs every row; fails where one misses a bar.
+/// Packs every row; what was measured before by the same code is not packed again. Fails where one misses a bar.
 pub(crate) fn run(selection: &Selection) -> Result<(), String> {
-    let mut table = HEAD.to_owned();
-    print!("{HEAD}");
+    let bench = Bench::open(&[file!()])?;
+    let mut table = ShownTable::new(HEAD);
     let mut missed = Vec::new();
     for row in ROWS
         .iter()
         .filter(|row| selection.wants(row.scene, row.quick))
     {
-        let line = match run_row(row, selection)? {
+        let line = match scene(row, selection)? {
             None => format!("{} | | | | no data | | | | | | | | | |\n", head(row)),
-            Some(outcome) => {
-                let figures = Figures::of(&outcome);
+            Some(scene) => {
+                let figures = bench.packed(&scene, Figures::of)?;
                 let misses = figures.misses(row);
                 if !misses.is_empty() {
                     missed.push(format!(
@@ -44,12 +46,11 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
                 figures.line(row, &misses)
             }
         };
-        print!("{line}");
-        table.push_str(&line);
+        table.push(&line);
     }
     let dial = dial::table(selection)?;
     if selection.write {
-        let path = root().join("docs/balanced.md");
+        let table = table.into_text();
         let text = format!(
             "# The balanced method and its bars\n\n\
              Quintic kernel, h/∆s = 1.2, defaults, no tuning per shape{}. Regenerate with\n\
@@ -74,7 +75,7 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
                 ""
             }
         );
-        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        write("docs/balanced.md", &text)?;
     }
     if missed.is_empty() {
         Ok(())
@@ -83,7 +84,8 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
     }
 }
 
-fn run_row(row: &Row, selection: &Selection) -> Result<Option<Outcome>, String> {
+/// A row's scene; `None` where its body's file is not there.
+fn scene(row: &Row, selection: &Selection) -> Result<Option<Scene>, String> {
     let Some(mut scene) = load(row.scene, selection)? else {
         return Ok(None);
     };
@@ -98,12 +100,11 @@ fn run_row(row: &Row, selection: &Selection) -> Result<Option<Outcome>, String> 
     } else {
         scene.packing.max_iterations = row.evaluations.max(600);
     }
-    pack(&scene, &Options::default(), &mut Silent)
-        .map(Some)
-        .map_err(|error| error.to_string())
+    Ok(Some(scene))
 }
 
 /// What is judged of a packing.
+#[derive(Debug, Serialize, Deserialize)]
 struct Figures {
     evaluations: usize,
     linf: f64,
@@ -151,12 +152,7 @@ impl Figures {
             linf: match report.scene.packing.finish {
                 Finish::Even | Finish::Consistent => report.density.linf,
                 // What the lattice itself is off by is not theirs.
-                Finish::Calm | Finish::Both => {
-                    let DensityQuality {
-                        min, max, lattice, ..
-                    } = report.density;
-                    (max - lattice).max(lattice - min)
-                }
+                Finish::Calm | Finish::Both => report.density.linf_lattice,
             },
             total_variation: report.density.total_variation,
             most: table.error_of_most(0.99),

@@ -1,5 +1,6 @@
 //! Everything that a change must pass, in the order of what fails soonest.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -22,10 +23,66 @@ const FAULTS: usize = 48;
 /// Damaged scene files; `cargo xtask fuzz --scene-files 100000` is the long form.
 const SCENE_FILES: usize = 1000;
 
-/// Runs every check; the first that fails ends it.
+/// A check and its name.
+type Check = (&'static str, fn() -> Result<(), String>);
+
+const CHECKS: [Check; 17] = [
+    ("house rules", || tidy::run(&root())),
+    ("format", || cargo(&["fmt", "--all", "--check"], &[])),
+    ("clippy", clippy),
+    ("documentation", || {
+        let strict = [("RUSTDOCFLAGS", "-D warnings")];
+        cargo(&["doc", "--workspace", "--no-deps"], &strict)
+    }),
+    ("licences", deny),
+    // The README's test command.
+    ("tests", || cargo(&["test", "--workspace"], &[])),
+    ("examples", examples),
+    ("packages", package),
+    ("reproduction", || {
+        reproduction::run(&reproduction::Settings::quick())
+    }),
+    ("stability", || {
+        stability::run(&stability::Settings::quick())?;
+        maps::run(&maps::Settings::quick())
+    }),
+    ("balanced", || balanced::run(&quick())),
+    ("chart", || front::run(&front::Settings::quick())),
+    ("variable", || variable::run(&quick())),
+    ("bodies", || bodies::run(&bodies::Settings::quick())),
+    ("random scenes", || {
+        scene_fuzz::run(&scene_fuzz::Settings::new(RANDOM_SCENES))
+    }),
+    ("kills and faults", || {
+        kills::run(&kills::Settings::new(KILLS))?;
+        faults::run(&faults::Settings::new(FAULTS))
+    }),
+    ("damaged scenes", || {
+        files::run(&files::Settings::new(SCENE_FILES))
+    }),
+];
+
+/// Runs every check; the first that fails ends it. Says at the end what each has taken.
 pub(crate) fn run() -> Result<(), String> {
-    tidy::run(&root())?;
-    cargo(&["fmt", "--all", "--check"], &[])?;
+    let mut seconds = String::new();
+    for (name, check) in CHECKS {
+        let start = Instant::now();
+        check()?;
+        // Writing to a string cannot fail.
+        let _ = writeln!(seconds, "{:7.1} s  {name}", start.elapsed().as_secs_f64());
+    }
+    eprint!("── all checks passed\n{seconds}");
+    Ok(())
+}
+
+fn quick() -> Selection {
+    Selection {
+        quick: true,
+        ..Selection::default()
+    }
+}
+
+fn clippy() -> Result<(), String> {
     cargo(
         &[
             "clippy",
@@ -36,16 +93,11 @@ pub(crate) fn run() -> Result<(), String> {
             "warnings",
         ],
         &[],
-    )?;
-    cargo(
-        &["doc", "--workspace", "--no-deps"],
-        &[("RUSTDOCFLAGS", "-D warnings")],
-    )?;
-    deny()?;
-    // The README's test command.
-    cargo(&["test", "--workspace"], &[])?;
-    examples()?;
-    // What would be published is complete: every file that is included, licences too.
+    )
+}
+
+/// What would be published is complete: every file that is included, licences too.
+fn package() -> Result<(), String> {
     cargo(
         &[
             "package",
@@ -57,22 +109,7 @@ pub(crate) fn run() -> Result<(), String> {
             "--offline",
         ],
         &[],
-    )?;
-    let quick = Selection {
-        quick: true,
-        ..Selection::default()
-    };
-    reproduction::run(&reproduction::Settings::quick())?;
-    stability::run(&stability::Settings::quick())?;
-    maps::run(&maps::Settings::quick())?;
-    balanced::run(&quick)?;
-    front::run(&front::Settings::quick())?;
-    variable::run(&quick)?;
-    bodies::run(&bodies::Settings::quick())?;
-    scene_fuzz::run(&scene_fuzz::Settings::new(RANDOM_SCENES))?;
-    kills::run(&kills::Settings::new(KILLS))?;
-    faults::run(&faults::Settings::new(FAULTS))?;
-    files::run(&files::Settings::new(SCENE_FILES))
+    )
 }
 
 /// Runs every example with what it takes when asked for nothing. The tests have built them, beside this program; `cargo run`

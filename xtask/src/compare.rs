@@ -1,21 +1,19 @@
 //! Every method on every scene, judged alike.
 
-use std::fmt::Write as _;
-use std::fs;
-use std::time::Instant;
-
+use serde::{Deserialize, Serialize};
+use sphpack::Outcome;
 use sphpack::scene::Method;
-use sphpack::{Options, Report, run as pack};
 use sphpack_kernels::KernelKind;
-use sphpack_packing::Silent;
 
 use crate::arguments::Arguments;
+use crate::bench::Bench;
 use crate::chart::{Axis, Chart, Scale, Series};
 use crate::figures;
 use crate::sections::Section;
 use crate::selection::Selection;
 use crate::shipped::{iterations_together, load};
-use crate::workspace::root;
+use crate::shown_table::ShownTable;
+use crate::workspace::write;
 
 const HEAD: &str = "\
 | scene | ∆s | method | L∞ | total variation | residual of free max, rms | body's volume off | on the surface / N_s | \
@@ -73,14 +71,14 @@ impl Settings {
     }
 }
 
-/// Packs every scene by every method that works in its dimension.
+/// Packs every scene by every method that works in its dimension; what was measured before by the same code is not packed again.
 pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let selection = &settings.selection;
     if let Some(section) = settings.section {
         return section.run(selection);
     }
-    let mut table = HEAD.to_owned();
-    print!("{HEAD}");
+    let bench = Bench::open(&[file!()])?;
+    let mut table = ShownTable::new(HEAD);
     let mut clouds: Vec<Series> = Vec::new();
     for (name, spacing, dimension, quick) in SCENES {
         if !selection.wants(name, quick) {
@@ -106,13 +104,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             scene.packing.max_iterations = iterations_together(method, most);
             scene.quality.kernel = Some(KernelKind::Quintic);
             scene.quality.h_over_spacing = Some(1.2);
-            let start = Instant::now();
-            let outcome = pack(&scene, &Options::default(), &mut Silent)
-                .map_err(|error| error.to_string())?;
-            let seconds = start.elapsed().as_secs_f64();
-            let line = line(name, info.name, &outcome.report, seconds);
+            let figures = bench.packed(&scene, Figures::of)?;
             if method != Method::Clipped {
-                let place = [seconds, 100.0 * outcome.report.density.linf];
+                let place = [figures.seconds, 100.0 * figures.linf];
                 match clouds.iter_mut().find(|cloud| cloud.name == info.name) {
                     Some(cloud) => cloud.points.push(place),
                     None => clouds.push(Series {
@@ -122,8 +116,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
                     }),
                 }
             }
-            print!("{line}");
-            table.push_str(&line);
+            table.push(&format!(
+                "| {name} | {spacing} | {} | {} |\n",
+                info.name, figures.line
+            ));
         }
     }
     if settings.method.is_some() {
@@ -136,7 +132,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         sections.push(section.text(selection)?);
     }
     if selection.write {
-        let path = root().join("docs/methods.md");
+        let table = table.into_text();
         let text = format!(
             "# Every method on every scene\n\n\
              Each method with its defaults, its own kernel and h/∆s among them; all judged by the quintic kernel at\n\
@@ -161,10 +157,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             },
             sections.join("\n")
         );
-        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
-        let path = root().join("docs/speed-accuracy.svg");
-        fs::write(&path, chart(clouds).svg())
-            .map_err(|error| format!("{}: {error}", path.display()))?;
+        write("docs/methods.md", &text)?;
+        write("docs/speed-accuracy.svg", &chart(clouds).svg())?;
     }
     Ok(())
 }
@@ -187,34 +181,48 @@ fn chart(series: Vec<Series>) -> Chart {
     }
 }
 
-fn line(scene: &str, method: &str, report: &Report, seconds: f64) -> String {
-    let off = report
-        .bodies
-        .iter()
-        .map(|body| body.volume / body.volume_true - 1.0)
-        .fold(
-            0.0,
-            |most: f64, off| if off.abs() > most.abs() { off } else { most },
+/// What is shown of a packing.
+#[derive(Debug, Serialize, Deserialize)]
+struct Figures {
+    /// From scene to figures.
+    seconds: f64,
+    linf: f64,
+    /// Its row, from L∞ on.
+    line: String,
+}
+
+impl Figures {
+    fn of(outcome: &Outcome) -> Self {
+        let report = &outcome.report;
+        let off = report
+            .bodies
+            .iter()
+            .map(|body| body.volume / body.volume_true - 1.0)
+            .fold(
+                0.0,
+                |most: f64, off| if off.abs() > most.abs() { off } else { most },
+            );
+        let sum = |f: fn(&sphpack_packing::SurfaceQuality) -> usize| {
+            report.surface.iter().map(f).sum::<usize>()
+        };
+        let seconds = report.seconds.total;
+        let line = format!(
+            "{:.2} % | {:.2} % | {:.1e}, {:.1e} | {:+.2} % | {} / {} | {:.2} | {} | {seconds:.2} | {}",
+            100.0 * report.density.linf,
+            100.0 * report.density.total_variation,
+            report.residual.max,
+            report.residual.rms,
+            100.0 * off,
+            sum(|s| s.count),
+            sum(|s| s.target_count),
+            report.closest_pair_over_spacing,
+            report.force_evaluations,
+            report.stop_reason,
         );
-    let sum = |f: fn(&sphpack_packing::SurfaceQuality) -> usize| {
-        report.surface.iter().map(f).sum::<usize>()
-    };
-    let mut line = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        line,
-        "| {scene} | {} | {method} | {:.2} % | {:.2} % | {:.1e}, {:.1e} | {:+.2} % | {} / {} | {:.2} | {} | {seconds:.2} | {} |",
-        report.spacing,
-        100.0 * report.density.linf,
-        100.0 * report.density.total_variation,
-        report.residual.max,
-        report.residual.rms,
-        100.0 * off,
-        sum(|s| s.count),
-        sum(|s| s.target_count),
-        report.closest_pair_over_spacing,
-        report.force_evaluations,
-        report.stop_reason,
-    );
-    line
+        Self {
+            seconds,
+            linf: report.density.linf,
+            line,
+        }
+    }
 }

@@ -1,12 +1,11 @@
 //! What levelling buys, and what it costs.
 
-use std::fmt::Write as _;
+use sphpack::Outcome;
 
-use sphpack::{Options, run as pack};
-use sphpack_packing::Silent;
-
+use crate::bench::Bench;
 use crate::selection::Selection;
 use crate::shipped::load;
+use crate::shown_table::ShownTable;
 
 const HEAD: &str = "\
 | scene | ∆s | κ | L∞ | 99 % within | residual of free max, rms | closest pair / ∆s | evaluations | seconds |
@@ -26,8 +25,8 @@ const STIFFNESS: [f64; 6] = [0.0, 3.0, 10.0, 30.0, 100.0, 300.0];
 
 /// The table of stiffness κ against density and residual.
 pub(crate) fn table(selection: &Selection) -> Result<String, String> {
-    let mut table = HEAD.to_owned();
-    print!("\n{HEAD}");
+    let bench = Bench::open(&[file!()])?;
+    let mut table = ShownTable::new(HEAD);
     for (name, spacing, quick) in SCENES {
         if !selection.wants(name, quick) {
             continue;
@@ -39,25 +38,26 @@ pub(crate) fn table(selection: &Selection) -> Result<String, String> {
             scene.spacing = spacing;
             scene.packing.levelling = Some(stiffness);
             scene.packing.max_iterations = 2000;
-            let outcome = pack(&scene, &Options::default(), &mut Silent)
-                .map_err(|error| error.to_string())?;
-            let report = &outcome.report;
-            let mut line = String::new();
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                line,
-                "| {name} | {spacing} | {stiffness} | {:.3} % | {:.3} % | {:.1e}, {:.1e} | {:.3} | {} | {:.2} |",
-                100.0 * report.density.linf,
-                100.0 * outcome.table.error_of_most(0.99),
-                report.residual.max,
-                report.residual.rms,
-                report.closest_pair_over_spacing,
-                report.force_evaluations,
-                report.seconds.total,
-            );
-            print!("{line}");
-            table.push_str(&line);
+            let figures = bench.packed(&scene, figures)?;
+            table.push(&format!(
+                "| {name} | {spacing} | {stiffness} | {figures} |\n"
+            ));
         }
     }
-    Ok(table)
+    Ok(table.into_text())
+}
+
+/// A row's figures, from L∞ on.
+fn figures(outcome: &Outcome) -> String {
+    let report = &outcome.report;
+    format!(
+        "{:.3} % | {:.3} % | {:.1e}, {:.1e} | {:.3} | {} | {:.2}",
+        100.0 * report.density.linf,
+        100.0 * outcome.table.error_of_most(0.99),
+        report.residual.max,
+        report.residual.rms,
+        report.closest_pair_over_spacing,
+        report.force_evaluations,
+        report.seconds.total,
+    )
 }

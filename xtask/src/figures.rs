@@ -1,14 +1,14 @@
 //! What papers 001 and 002 print of their methods, beside ours.
 
-use std::fmt::Write as _;
-
 use sphpack::scene::Method;
-use sphpack::{Options, Packing, run as pack};
+use sphpack::{Outcome, Packing};
 use sphpack_kernels::KernelKind;
-use sphpack_packing::{Kind, Packed, Silent};
+use sphpack_packing::{Kind, Packed};
 
+use crate::bench::Bench;
 use crate::selection::Selection;
 use crate::shipped::{iterations_together, load};
+use crate::shown_table::ShownTable;
 
 const VARIATION: &str = "\
 | scene | ∆s | method | total variation, paper 001 | ours, all particles | ours, to ∆s inside |
@@ -27,8 +27,8 @@ const PRINTED: [(&str, f64, Method, f64); 6] = [
 
 /// Total variations of 001's three methods.
 pub(crate) fn variation(selection: &Selection) -> Result<String, String> {
-    let mut table = VARIATION.to_owned();
-    print!("\n{VARIATION}");
+    let bench = Bench::open(&[file!()])?;
+    let mut table = ShownTable::new(VARIATION);
     for (name, spacing, method, printed) in PRINTED {
         if !selection.wants(name, name == "cylinder") {
             continue;
@@ -41,25 +41,24 @@ pub(crate) fn variation(selection: &Selection) -> Result<String, String> {
         scene.packing.max_iterations = iterations_together(method, scene.packing.max_iterations);
         scene.quality.kernel = Some(KernelKind::Quintic);
         scene.quality.h_over_spacing = Some(1.0);
-        let outcome =
-            pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
-        let near = match &outcome.packing {
-            Packing::Plane(solution) => variation_near(&solution.packed, &solution.fields.gamma),
-            Packing::Space(solution) => variation_near(&solution.packed, &solution.fields.gamma),
-        };
-        let mut line = String::new();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            line,
-            "| {name} | {spacing} | {} | {printed} % | {:.2} % | {:.2} % |",
+        let [all, near] = bench.packed(&scene, variations)?;
+        table.push(&format!(
+            "| {name} | {spacing} | {} | {printed} % | {:.2} % | {:.2} % |\n",
             method.name(),
-            100.0 * outcome.report.density.total_variation,
+            100.0 * all,
             100.0 * near,
-        );
-        print!("{line}");
-        table.push_str(&line);
+        ));
     }
-    Ok(table)
+    Ok(table.into_text())
+}
+
+/// max Γ − min Γ over all particles, and as [`variation_near`].
+fn variations(outcome: &Outcome) -> [f64; 2] {
+    let near = match &outcome.packing {
+        Packing::Plane(solution) => variation_near(&solution.packed, &solution.fields.gamma),
+        Packing::Space(solution) => variation_near(&solution.packed, &solution.fields.gamma),
+    };
+    [outcome.report.density.total_variation, near]
 }
 
 /// max Γ − min Γ over the particles outside the bodies or within ∆s of their surfaces.
@@ -84,8 +83,8 @@ const TANK: &str = "\
 
 /// 002's tanks at rest.
 pub(crate) fn tanks(selection: &Selection) -> Result<String, String> {
-    let mut table = TANK.to_owned();
-    print!("\n{TANK}");
+    let bench = Bench::open(&[file!()])?;
+    let mut table = ShownTable::new(TANK);
     for (name, cells) in [
         ("trapezoid", 25.0),
         ("trapezoid", 50.0),
@@ -99,23 +98,23 @@ pub(crate) fn tanks(selection: &Selection) -> Result<String, String> {
             continue;
         };
         scene.spacing = 1.0 / cells;
-        let outcome =
-            pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
-        let report = &outcome.report;
-        let mut line = String::new();
-        let _ = writeln!(
-            line,
-            "| {name} | {cells} | {} | {} | {:.2} % | {:.1e}, {:.1e} | {} | {:.1} |",
-            report.iterations,
-            report.stop_reason,
-            100.0 * report.density.linf,
-            report.residual.max,
-            report.residual.mean,
-            report.particles.fluid,
-            report.seconds.total,
-        );
-        print!("{line}");
-        table.push_str(&line);
+        let figures = bench.packed(&scene, tank)?;
+        table.push(&format!("| {name} | {cells} | {figures} |\n"));
     }
-    Ok(table)
+    Ok(table.into_text())
+}
+
+/// A tank's row, from its iterations on.
+fn tank(outcome: &Outcome) -> String {
+    let report = &outcome.report;
+    format!(
+        "{} | {} | {:.2} % | {:.1e}, {:.1e} | {} | {:.1}",
+        report.iterations,
+        report.stop_reason,
+        100.0 * report.density.linf,
+        report.residual.max,
+        report.residual.mean,
+        report.particles.fluid,
+        report.seconds.total,
+    )
 }

@@ -1,14 +1,14 @@
 //! Gaps at trailing edges where bodies and fluid are parsed each on its own grid (004 §2.2, figs. 4, 8 and 20).
 
 use std::fmt::Write as _;
-use std::fs;
 
 use sphpack_packing::Particles;
 
 use crate::drawing;
 use crate::relaxed_airfoils::{Airfoil, Figures, SPACING, Way, airfoils, trailing_edge};
 use crate::selection::Selection;
-use crate::workspace::root;
+use crate::shown_table::ShownTable;
+use crate::workspace::write;
 
 pub(crate) const ABOUT: &str = "
 The airfoils NACA 5515 and 30P30N (its three elements read from DIR/30p30n) at ∆s = c/250, 004's kernel and h/∆s. As in
@@ -38,8 +38,7 @@ greatest Γ |
 
 /// The table; the picture where the page is written.
 pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
-    let mut text = HEAD.to_owned();
-    print!("\n{HEAD}");
+    let mut table = ShownTable::new(HEAD);
     let mut panels = Vec::new();
     let all = airfoils(selection)?;
     for airfoil in &all {
@@ -47,7 +46,7 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
             let particles = airfoil.relaxed(way)?;
             let (boundary, method) = (way.boundary(), way.relaxation());
             let figures = Figures::of(airfoil, &particles);
-            let line = format!(
+            table.push(&format!(
                 "| {} | {boundary} | {method} | {:.2} | {:.2} | {:.3} | {:.3} | {:.3} |\n",
                 airfoil.name,
                 figures.hole[0],
@@ -55,23 +54,19 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
                 figures.least[0],
                 figures.least[1],
                 figures.greatest,
-            );
-            print!("{line}");
-            text.push_str(&line);
+            ));
             if panels.len() < 3 {
                 panels.push((format!("{method}, fluid bounded by {boundary}"), particles));
             }
         }
     }
     if all.len() < 2 {
-        text.push_str("| 30P30N | no data | | | | | | |\n");
+        table.push("| 30P30N | no data | | | | | | |\n");
     }
     if selection.write {
-        let path = root().join("docs/gaps.svg");
-        fs::write(&path, picture(&all[0], &panels))
-            .map_err(|error| format!("{}: {error}", path.display()))?;
+        write("docs/gaps.svg", &picture(&all[0], &panels))?;
     }
-    Ok(text)
+    Ok(table.into_text())
 }
 
 /// Half the width of a panel in ∆s, and pixels per ∆s.

@@ -2,15 +2,18 @@
 
 use std::fmt::Write as _;
 
+use serde::{Deserialize, Serialize};
 use sphpack::scene::Method;
-use sphpack::{Options, Packing, Solution, run as pack};
+use sphpack::{Outcome, Packing, Scene, Solution};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::point;
-use sphpack_packing::{Fields, Kind, Lattice, Relaxation, Silent};
+use sphpack_packing::{Fields, Kind, Lattice, Relaxation};
 
+use crate::bench::Bench;
 use crate::rest::at_rest;
 use crate::selection::Selection;
 use crate::shipped::load;
+use crate::shown_table::ShownTable;
 
 pub(crate) const ABOUT: &str = "Density by each side's own kernel and h, as
 the paper has them: Wendland's C2 at h/∆s = 1.05 in solids and 1.3 in the fluid, over Γ₀ of the lattice that rests
@@ -63,9 +66,9 @@ const FLUID_H: f64 = 1.3;
 
 /// Separate relaxation, complex relaxation, plain and levelled, and our balanced method, judged alike.
 pub(crate) fn interface(selection: &Selection) -> Result<String, String> {
-    let mut table = HEAD.to_owned();
+    let bench = Bench::open(&[file!()])?;
+    let mut table = ShownTable::new(HEAD);
     let mut factors = String::new();
-    print!("\n{HEAD}");
     for (name, spacing) in ROWS {
         if !selection.wants(name, name == "cylinder") {
             continue;
@@ -73,25 +76,24 @@ pub(crate) fn interface(selection: &Selection) -> Result<String, String> {
         let mut layers = Vec::new();
         for (method, levelling) in WAYS {
             let way = (method, levelling);
-            let Some((solution, end)) = packed(name, spacing, way, MOST_ITERATIONS, selection)?
-            else {
+            let Some(scene) = scene(name, spacing, way, MOST_ITERATIONS, selection)? else {
                 continue;
             };
-            let figures = Figures::of(&solution);
+            let Some(figures) = bench.packed(&scene, Figures::of)? else {
+                continue;
+            };
             let mut energy = "–".to_owned();
             if method != Method::Balanced {
-                let begin = packed(name, spacing, way, 0, selection)?;
-                let begin = begin.map_or(f64::NAN, |(begin, _)| Figures::of(&begin).energy);
+                let begin = self::scene(name, spacing, way, 0, selection)?.unwrap_or(scene);
+                let begin = bench.packed(&begin, Figures::of)?;
+                let begin = begin.map_or(f64::NAN, |begin| begin.energy);
                 energy = format!("{:.1e}", figures.energy / begin);
                 layers.push(figures.layer);
             }
             let [solid, fluid] = figures.density;
             let percent = |x: f64| 100.0 * x;
-            let mut line = String::new();
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                line,
-                "| {name} | {spacing} | {} | {:+.2} … {:+.2} % | {:+.2} … {:+.2} % | {:.2} % | {:.1e}, {:.1e} | {energy} | {end} |",
+            table.push(&format!(
+                "| {name} | {spacing} | {} | {:+.2} … {:+.2} % | {:+.2} … {:+.2} % | {:.2} % | {:.1e}, {:.1e} | {energy} | {} |\n",
                 if levelling == Some(0.0) {
                     format!("{}, levelling 0", method.name())
                 } else {
@@ -104,9 +106,8 @@ pub(crate) fn interface(selection: &Selection) -> Result<String, String> {
                 percent(figures.quintic),
                 figures.layer[0],
                 figures.layer[1],
-            );
-            print!("{line}");
-            table.push_str(&line);
+                figures.end,
+            ));
         }
         if let [separate, plain, levelled] = layers[..] {
             let _ = write!(
@@ -124,18 +125,18 @@ pub(crate) fn interface(selection: &Selection) -> Result<String, String> {
         "Complex relaxation lowers the layer's KGS by these factors, maximum and mean: {factors}.\n"
     );
     println!("\n{factors}");
-    let rest = at_rest();
-    Ok(format!("{table}\n{factors}\n{rest}"))
+    let rest = at_rest()?;
+    Ok(format!("{}\n{factors}\n{rest}", table.into_text()))
 }
 
-/// A scene by a method, and how it ended; `None` where the scene's body is not there.
-fn packed(
+/// A scene by a method; `None` where its body is not there.
+fn scene(
     name: &str,
     spacing: f64,
     (method, levelling): (Method, Option<f64>),
     most: usize,
     selection: &Selection,
-) -> Result<Option<(Solution<2>, String)>, String> {
+) -> Result<Option<Scene>, String> {
     let Some(mut scene) = load(name, selection)? else {
         return Ok(None);
     };
@@ -146,19 +147,11 @@ fn packed(
         scene.packing.residual_tolerance = Some(TOLERANCE);
         scene.packing.max_iterations = most;
     }
-    let outcome =
-        pack(&scene, &Options::default(), &mut Silent).map_err(|error| error.to_string())?;
-    let end = format!(
-        "{} | {}",
-        outcome.report.iterations, outcome.report.stop_reason
-    );
-    Ok(match outcome.packing {
-        Packing::Plane(solution) => Some((solution, end)),
-        Packing::Space(_) => None,
-    })
+    Ok(Some(scene))
 }
 
 /// What is judged.
+#[derive(Debug, Serialize, Deserialize)]
 struct Figures {
     /// Least and largest Γ/Γ₀ − 1 of the solids' particles and of the fluid's, by their own kernel and h.
     density: [[f64; 2]; 2],
@@ -168,10 +161,22 @@ struct Figures {
     layer: [f64; 2],
     /// Σ V |Σ V ∇W|² of these: eq. 14 at a fixed ∆t, but for a factor.
     energy: f64,
+    /// Iterations, and why there were no more.
+    end: String,
 }
 
 impl Figures {
-    fn of(solution: &Solution<2>) -> Self {
+    /// Of a packing in the plane.
+    fn of(outcome: &Outcome) -> Option<Self> {
+        let report = &outcome.report;
+        let end = format!("{} | {}", report.iterations, report.stop_reason);
+        match &outcome.packing {
+            Packing::Plane(solution) => Some(Self::of_plane(solution, end)),
+            Packing::Space(_) => None,
+        }
+    }
+
+    fn of_plane(solution: &Solution<2>, end: String) -> Self {
         let (packed, bodies) = (&solution.packed, &solution.problem.bodies);
         let particles = &packed.particles;
         let solid_h = Relaxation::default().solid_h_over_spacing;
@@ -185,6 +190,7 @@ impl Figures {
             quintic: 0.0,
             layer: [0.0; 2],
             energy: 0.0,
+            end,
         };
         let mut count = 0;
         for i in (0..particles.len()).filter(|&i| particles.kind[i] != Kind::Frozen) {

@@ -1,18 +1,20 @@
 //! Which lattice to start from: what theory says of each, and what packings from it are like.
 
 use std::fmt::Write as _;
-use std::fs;
 
-use sphpack::{Options, run as pack};
+use serde::{Deserialize, Serialize};
+use sphpack::Outcome;
 use sphpack_kernels::KernelKind;
-use sphpack_packing::{Lattice, Silent};
+use sphpack_packing::Lattice;
 
 use crate::arguments::Arguments;
+use crate::bench::Bench;
 use crate::chart::{Axis, Chart, Scale, Series};
 use crate::crystal::{UNSTABLE, softest};
 use crate::selection::Selection;
 use crate::shipped::load;
-use crate::workspace::root;
+use crate::shown_table::ShownTable;
+use crate::workspace::write;
 
 const KERNELS: [KernelKind; 4] = [
     KernelKind::Quintic,
@@ -45,6 +47,25 @@ struct Trial {
     /// The least distance of two particles over ∆s.
     closest: f64,
     evaluations: usize,
+}
+
+/// What is measured of one scene's packing.
+#[derive(Debug, Serialize, Deserialize)]
+struct Figures {
+    variation: f64,
+    closest: f64,
+    evaluations: usize,
+}
+
+impl Figures {
+    fn of(outcome: &Outcome) -> Self {
+        let report = &outcome.report;
+        Self {
+            variation: report.density.total_variation,
+            closest: report.closest_pair_over_spacing,
+            evaluations: report.force_evaluations,
+        }
+    }
 }
 
 /// The arguments that it knows.
@@ -91,16 +112,10 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
     Ok(())
 }
 
-fn write(name: &str, text: &str) -> Result<(), String> {
-    let path = root().join(name);
-    fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
-}
-
 fn of_dimension(dimension: usize, selection: &Selection) -> Result<(String, Chart), String> {
-    let mut table = String::from(
+    let mut table = ShownTable::new(
         "| kernel | h/∆s | lattice | stability | variation | closest pair / ∆s | evaluations |\n|---|---|---|---|---|---|---|\n",
     );
-    print!("\n{table}");
     let mut series = Vec::new();
     for kernel in KERNELS {
         let mut points = Vec::new();
@@ -117,9 +132,7 @@ fn of_dimension(dimension: usize, selection: &Selection) -> Result<(String, Char
                 if is_taken {
                     points.push([h, 100.0 * trial.variation]);
                 }
-                let line = line(kernel, h, &trial, is_taken);
-                print!("{line}");
-                table.push_str(&line);
+                table.push(&line(kernel, h, &trial, is_taken));
             }
         }
         series.push(Series {
@@ -146,7 +159,7 @@ fn of_dimension(dimension: usize, selection: &Selection) -> Result<(String, Char
         ],
         series,
     };
-    Ok((table, chart))
+    Ok((table.into_text(), chart))
 }
 
 fn attempt(
@@ -162,6 +175,7 @@ fn attempt(
         closest: f64::INFINITY,
         evaluations: 0,
     };
+    let bench = Bench::open(&[file!()])?;
     for (name, spacing) in SCENES[lattice.dimension() - 2] {
         let Some(mut scene) = load(name, selection)? else {
             continue;
@@ -172,12 +186,10 @@ fn attempt(
         scene.packing.lattice = Some(lattice);
         scene.packing.max_iterations = PATIENCE;
         scene.packing.levelling = Some(LEVELLING);
-        let report = pack(&scene, &Options::default(), &mut Silent)
-            .map_err(|error| error.to_string())?
-            .report;
-        trial.variation = trial.variation.max(report.density.total_variation);
-        trial.closest = trial.closest.min(report.closest_pair_over_spacing);
-        trial.evaluations = trial.evaluations.max(report.force_evaluations);
+        let figures = bench.packed(&scene, Figures::of)?;
+        trial.variation = trial.variation.max(figures.variation);
+        trial.closest = trial.closest.min(figures.closest);
+        trial.evaluations = trial.evaluations.max(figures.evaluations);
     }
     Ok(trial)
 }

@@ -1,13 +1,14 @@
 //! How evenly a kernel's own particles come to rest, with no body in the way.
 
-use std::fmt::Write as _;
-
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::random::Congruential;
 use sphpack_neighbors::{Domain, point};
 use sphpack_packing::forces::Forces;
 use sphpack_packing::{Kind, Lattice, Particles, Sizes};
 use sphpack_pairs::Repulsion;
+
+use crate::bench::Bench;
+use crate::shown_table::ShownTable;
 
 const HEAD: &str = "\
 | kernel | h/∆s | lattice, shaken by | Γ/Γ₀ − 1 at rest | rms | h KGS max |
@@ -31,24 +32,21 @@ const STEPS: usize = 8000;
 const STEP: f64 = 0.4;
 
 /// Shaken lattices in a periodic box under the background pressure alone.
-pub(crate) fn at_rest() -> String {
-    let mut table = HEAD.to_owned();
-    print!("{HEAD}");
+pub(crate) fn at_rest() -> Result<String, String> {
+    let bench = Bench::open(&[file!()])?;
+    let mut table = ShownTable::new(HEAD);
     for (kernel, h, lattice, shake) in ROWS {
-        let [low, high, rms, residual] = relaxed(kernel, h, lattice, shake);
-        let mut line = String::new();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            line,
-            "| {kernel} | {h} | {lattice}, {shake} ∆s | {:+.2} … {:+.2} % | {:.2} % | {residual:.0e} |",
+        let of = format!("{kernel} {h} {lattice} {shake}");
+        let [low, high, rms, residual] =
+            bench.once(&of, || Ok(relaxed(kernel, h, lattice, shake)))?;
+        table.push(&format!(
+            "| {kernel} | {h} | {lattice}, {shake} ∆s | {:+.2} … {:+.2} % | {:.2} % | {residual:.0e} |\n",
             100.0 * low,
             100.0 * high,
             100.0 * rms,
-        );
-        print!("{line}");
-        table.push_str(&line);
+        ));
     }
-    table
+    Ok(table.into_text())
 }
 
 /// Least, largest and root mean square Γ/Γ₀ − 1, and the largest residual, after [`STEPS`] steps.

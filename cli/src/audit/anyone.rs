@@ -36,7 +36,7 @@ impl Audit {
             );
             audit.found(message, Some(pair.2));
         }
-        let off = (density.max - density.lattice).max(density.lattice - density.min);
+        let off = density.linf_lattice;
         if off > GAMMA_WITHIN {
             let message = format!(
                 "the density is off by {:.0} %: particles or room are missing, or the spacing, kernel or h/∆s is not theirs",

@@ -1,6 +1,5 @@
 //! `sphpack pack`.
 
-use std::borrow::Cow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -289,17 +288,17 @@ impl Files {
         let mut files = AtomicFiles::new(may_replace);
         let shown = |path: &Path| visible(&path.display().to_string());
         let mut written = Vec::new();
-        let table = &outcome.table;
-        let is_asked_for = |i: usize| scene.includes(table.kind[i]);
-        let rows = if (0..table.len()).all(is_asked_for) {
-            Cow::Borrowed(table)
+        // A picture shows what files leave out.
+        let table = if self.picture.is_some() {
+            outcome.table.clone()
         } else {
-            Cow::Owned(table.filtered(is_asked_for))
+            std::mem::take(&mut outcome.table)
         };
+        let kinds = table.kind.clone();
+        let rows = table.kept(|i| scene.includes(kinds[i]));
+        drop(kinds);
         let rows = match &scene.output.surroundings {
-            Some(box_around) => {
-                Cow::Owned(surrounded(rows.into_owned(), outcome, scene, box_around))
-            }
+            Some(box_around) => surrounded(rows, outcome, scene, box_around),
             None => rows,
         };
         let frozen = (rows.kind.iter().filter(|&&kind| kind == Kind::Frozen)).count();

@@ -1,42 +1,47 @@
 //! Whether a particle file holds what was computed, asked of the file itself.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use super::vtu_read::{Names, visit};
 use super::{Columns, ParticleFormat};
 use crate::memory::available_bytes;
 use crate::table::Table;
 
-/// What one particle's columns take, bytes: at most thirteen numbers and three words.
-const ROW_BYTES: f64 = 300.0;
+/// Memory for a file and its columns, in bytes of the file: most is that of text, with words.
+const BYTES_PER_BYTE: f64 = 3.0;
 
-/// Reads a file of particles again and compares every column with the table, to the bit. Holds the file and its columns
-/// for that long; where there is no memory for them, nothing is compared, and the answer is `false`.
+/// Reads a file of particles again and compares every column with the table, to the bit: VTK's XML files piece by piece; others
+/// are held with their columns for that long, and where there is no memory for that, nothing is compared, and the answer is `false`.
 ///
 /// # Errors
 /// The first difference, by column and particle, or why the file cannot be read.
 pub(crate) fn compare(table: &Table, format: ParticleFormat, path: &Path) -> Result<bool, String> {
+    let unreadable = |why: &dyn ToString| format!("it cannot be read again ({})", why.to_string());
+    let mut found = Found::of(table);
+    if matches!(format, ParticleFormat::Vtu | ParticleFormat::Vtp) {
+        let mut file = fs::File::open(path).map_err(|e| unreadable(&e))?;
+        let mut take = |name: &str, piece: &[f64]| found.piece(name, piece);
+        let names = visit(&mut file, &mut take).map_err(|e| unreadable(&e))?;
+        found.names(&names);
+        return found.end().map(|()| true);
+    }
     let size = fs::metadata(path).map_or(0, |meta| meta.len()) as f64;
     // What has been computed must not be lost for the sake of looking at it again.
-    if size + ROW_BYTES * table.len() as f64 > available_bytes() {
+    if BYTES_PER_BYTE * size > available_bytes() {
         return Ok(false);
     }
-    let columns = fs::read(path)
-        .map_err(|e| format!("it cannot be read again ({e})"))
-        .and_then(|bytes| {
-            Columns::parse(format, &bytes, path)
-                .map_err(|e| format!("it cannot be read again ({e})"))
-        })?;
-    let rows = columns.numbers.get("x").map_or(0, Vec::len);
-    if rows != table.len() {
-        return Err(format!(
-            "read again, it has {rows} particles instead of {}; this is a fault of the disk or of sphpack, try another format",
-            table.len()
-        ));
+    let bytes = fs::read(path).map_err(|e| unreadable(&e))?;
+    let columns = Columns::parse(format, &bytes, path).map_err(|e| unreadable(&e))?;
+    drop(bytes);
+    for (name, numbers) in &columns.numbers {
+        found.piece(name, numbers);
     }
-    numbers(&columns, table)?;
-    words(&columns, table)?;
-    Ok(true)
+    for (name, words) in &columns.words {
+        found.words(name, words.len(), |i| &words[i]);
+    }
+    found.end().map(|()| true)
 }
 
 fn differs(column: &str, particle: u32, is: impl ToString, instead: impl ToString) -> String {
@@ -54,75 +59,141 @@ fn lacks(column: &str) -> String {
 /// A column's entries by row.
 type Entries<'a> = Box<dyn Fn(usize) -> f64 + 'a>;
 
-fn numbers(columns: &Columns, table: &Table) -> Result<(), String> {
-    let mut all: Vec<(&str, Entries<'_>)> = vec![
-        ("id", Box::new(|i| f64::from(table.id[i]))),
-        ("x", Box::new(|i| table.position[i][0])),
-        ("y", Box::new(|i| table.position[i][1])),
-        ("z", Box::new(|i| table.position[i][2])),
-        ("volume", Box::new(|i| table.volume[i])),
-        ("mass", Box::new(|i| table.mass[i])),
-        ("gamma", Box::new(|i| table.gamma[i])),
-        ("residual", Box::new(|i| table.residual[i])),
-        ("nx", Box::new(|i| table.normal(i)[0])),
-        ("ny", Box::new(|i| table.normal(i)[1])),
-        ("nz", Box::new(|i| table.normal(i)[2])),
-    ];
-    if !table.pressure.is_empty() {
-        all.push(("pressure", Box::new(|i| table.pressure[i])));
-        all.push(("density", Box::new(|i| table.density[i])));
-    }
-    for (name, expected) in all {
-        let Some(column) = columns.numbers.get(name) else {
-            // Files of the plane may leave out what is 0 there.
-            if table.dimension == 2 && matches!(name, "z" | "nz") {
-                continue;
-            }
-            return Err(lacks(name));
-        };
-        if column.len() != table.len() {
-            return Err(lacks(name));
-        }
-        for (i, &is) in column.iter().enumerate() {
-            let expected = expected(i);
-            let is_same = is.to_bits() == expected.to_bits() || is.is_nan() && expected.is_nan();
-            if !is_same {
-                return Err(differs(name, table.id[i], is, expected));
-            }
-        }
-    }
-    Ok(())
+/// What is found in a file, column by column.
+struct Found<'t> {
+    table: &'t Table,
+    /// Columns of numbers that are to be there.
+    expected: Vec<(&'static str, Entries<'t>)>,
+    /// Rows of every column so far.
+    rows: BTreeMap<String, usize>,
+    /// Columns of words that stand as numbers.
+    codes: BTreeMap<String, Vec<f64>>,
+    /// The first difference.
+    difference: Option<String>,
 }
 
-fn words<'t>(columns: &Columns, table: &'t Table) -> Result<(), String> {
-    let body = |i: usize| -> &'t str {
-        (table.body[i].and_then(|b| table.bodies.get(usize::from(b)))).map_or("", String::as_str)
-    };
-    let all: [(&str, &dyn Fn(usize) -> &'t str); 3] = [
-        ("kind", &|i| table.kind[i].name()),
-        ("side", &|i| table.side[i].name()),
-        ("body", &body),
-    ];
-    for (name, expected) in all {
-        let Some(column) = columns
-            .words
-            .get(name)
-            .filter(|all| all.len() == table.len())
-        else {
-            // Numbers of bodies have no names where there are no bodies.
-            let numbers = columns.numbers.get(name);
-            let is_none = numbers.is_some_and(|all| all.iter().all(|&number| number == -1.0));
-            if name == "body" && is_none && (0..table.len()).all(|i| body(i).is_empty()) {
-                continue;
-            }
-            return Err(lacks(name));
+/// Columns of words.
+const WORDS: [&str; 3] = ["kind", "side", "body"];
+
+impl<'t> Found<'t> {
+    fn of(table: &'t Table) -> Self {
+        let mut expected: Vec<(&str, Entries<'_>)> = vec![
+            ("x", Box::new(|i| table.position[i][0])),
+            ("y", Box::new(|i| table.position[i][1])),
+            ("z", Box::new(|i| table.position[i][2])),
+            ("id", Box::new(|i| f64::from(table.id[i]))),
+            ("volume", Box::new(|i| table.volume[i])),
+            ("mass", Box::new(|i| table.mass[i])),
+            ("gamma", Box::new(|i| table.gamma[i])),
+            ("residual", Box::new(|i| table.residual[i])),
+            ("nx", Box::new(|i| table.normal(i)[0])),
+            ("ny", Box::new(|i| table.normal(i)[1])),
+            ("nz", Box::new(|i| table.normal(i)[2])),
+        ];
+        if !table.pressure.is_empty() {
+            expected.push(("pressure", Box::new(|i| table.pressure[i])));
+            expected.push(("density", Box::new(|i| table.density[i])));
+        }
+        Self {
+            table,
+            expected,
+            rows: BTreeMap::new(),
+            codes: BTreeMap::new(),
+            difference: None,
+        }
+    }
+
+    /// More of a column of numbers.
+    fn piece(&mut self, name: &str, piece: &[f64]) {
+        let table = self.table;
+        if WORDS.contains(&name) {
+            let codes = self.codes.entry(name.to_owned()).or_default();
+            codes.extend_from_slice(piece);
+            return;
+        }
+        let Some((_, expected)) = self.expected.iter().find(|(own, _)| *own == name) else {
+            return;
         };
-        for (i, is) in column.iter().enumerate() {
-            if is != expected(i) {
-                let quoted = |word: &str| format!("\"{word}\"");
-                return Err(differs(name, table.id[i], quoted(is), quoted(expected(i))));
+        let rows = self.rows.entry(name.to_owned()).or_default();
+        let begin = *rows;
+        *rows += piece.len();
+        if *rows > table.len() || self.difference.is_some() {
+            return;
+        }
+        let is_same = |a: f64, b: f64| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan();
+        self.difference = (piece.iter().zip(begin..))
+            .find(|&(&is, i)| !is_same(is, expected(i)))
+            .map(|(is, i)| differs(name, table.id[i], is, expected(i)));
+    }
+
+    /// What the numbers stand for.
+    fn names(&mut self, names: &Names) {
+        for (name, names) in names {
+            if let Some(codes) = self.codes.remove(name) {
+                let word = |i: usize| {
+                    let code = (codes[i] >= 0.0).then_some(codes[i] as usize);
+                    code.and_then(|code| names.get(code))
+                        .map_or("", String::as_str)
+                };
+                self.words(name, codes.len(), word);
             }
         }
     }
-    Ok(())
+
+    /// A column of so many words.
+    fn words<'w>(&mut self, name: &str, count: usize, word: impl Fn(usize) -> &'w str) {
+        if !WORDS.contains(&name) || count != self.table.len() {
+            return;
+        }
+        self.rows.insert(name.to_owned(), count);
+        let quoted = |word: &str| format!("\"{word}\"");
+        let difference = (0..count)
+            .find(|&i| word(i) != self.expected_word(name, i))
+            .map(|i| {
+                let instead = quoted(self.expected_word(name, i));
+                differs(name, self.table.id[i], quoted(word(i)), instead)
+            });
+        self.difference = self.difference.take().or(difference);
+    }
+
+    fn expected_word(&self, name: &str, i: usize) -> &'t str {
+        let table = self.table;
+        match name {
+            "kind" => table.kind[i].name(),
+            "side" => table.side[i].name(),
+            _ => {
+                let body = table.body[i].and_then(|b| table.bodies.get(usize::from(b)));
+                body.map_or("", String::as_str)
+            }
+        }
+    }
+
+    /// Whether nothing differs and nothing lacks.
+    fn end(mut self) -> Result<(), String> {
+        let table = self.table;
+        // Numbers of bodies have no names where there are no bodies.
+        if let Some(codes) = self.codes.remove("body")
+            && codes.len() == table.len()
+            && codes.iter().all(|&code| code == -1.0)
+        {
+            self.words("body", codes.len(), |_| "");
+        }
+        let rows = |name: &str| self.rows.get(name).copied();
+        if let Some(rows) = rows("x").filter(|&rows| rows != table.len()) {
+            return Err(format!(
+                "read again, it has {rows} particles instead of {}; this is a fault of the disk or of sphpack, try another format",
+                table.len()
+            ));
+        }
+        if let Some(difference) = self.difference {
+            return Err(difference);
+        }
+        let is_whole = |name: &str| match rows(name) {
+            Some(rows) => rows == table.len(),
+            // Files of the plane may leave out what is 0 there.
+            None => table.dimension == 2 && matches!(name, "z" | "nz"),
+        };
+        let mut needed = (self.expected.iter()).map(|&(name, _)| name).chain(WORDS);
+        (needed.find(|name| !is_whole(name))).map_or(Ok(()), |name| Err(lacks(name)))
+    }
 }

@@ -1,6 +1,7 @@
 //! Reading VTK's XML files (unstructured grids and polygonal data), as far as particles need it: points and their numbers, as text or appended raw.
 
 use std::collections::BTreeMap;
+use std::io::{Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use super::Columns;
@@ -13,8 +14,21 @@ use crate::Error;
 /// # Errors
 /// [`Error::Input`] where the file is damaged, or written in a way that is not read (compressed, base64, big-endian).
 pub fn read_vtu(bytes: &[u8], path: &Path) -> Result<Columns, Error> {
-    read(bytes).map_err(|message| Error::input(path, message))
+    let mut columns = Columns::default();
+    let mut take = |name: &str, piece: &[f64]| {
+        let column = columns.numbers.entry(name.to_owned()).or_default();
+        column.extend_from_slice(piece);
+    };
+    let names =
+        visit(&mut Cursor::new(bytes), &mut take).map_err(|message| Error::input(path, message))?;
+    for (column, words) in names {
+        columns.name(&column, |code| words.get(code).cloned());
+    }
+    Ok(columns)
 }
+
+/// What the numbers of a column stand for, by its name.
+pub(super) type Names = BTreeMap<String, Vec<String>>;
 
 const MARK: &[u8] = b"<AppendedData";
 
@@ -61,25 +75,36 @@ impl<'a> Tag<'a> {
     }
 }
 
-/// The appended numbers, and how long the length before each array is.
-struct Appended<'a> {
-    bytes: &'a [u8],
+/// Where the appended numbers begin and end, and how long the length before each array is.
+struct Appended<'a, R> {
+    source: &'a mut R,
+    begin: u64,
+    end: u64,
     length_bytes: usize,
 }
 
-fn read(bytes: &[u8]) -> Result<Columns, String> {
-    let end = find(bytes, MARK).unwrap_or(bytes.len());
-    let head = String::from_utf8_lossy(&bytes[..end]);
+/// Bytes that are read at a time: whole points of any numbers.
+const PIECE: usize = 24 << 15;
+
+/// Gives away one column after the other, a piece at a time, so that none need be held; those of words as numbers of the names that
+/// it ends with. An empty column is one empty piece.
+pub(super) fn visit<R: Read + Seek>(
+    source: &mut R,
+    take: &mut dyn FnMut(&str, &[f64]),
+) -> Result<Names, String> {
+    let (bytes, mark) = head(source)?;
+    let head = String::from_utf8_lossy(&bytes[..mark]);
     let mut text: &str = &head;
     let mut appended = Appended {
-        bytes: &[],
+        end: source.seek(SeekFrom::End(0)).map_err(|e| e.to_string())?,
+        source,
+        begin: 0,
         length_bytes: 8,
     };
     let mut section = "";
     let mut count = None;
-    let mut points = None;
-    let mut columns = Columns::default();
-    let mut names: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut has_points = false;
+    let mut names = Names::new();
     let mut is_vtk = false;
     while let Some(tag) = Tag::next(text) {
         text = tag.rest;
@@ -92,7 +117,8 @@ fn read(bytes: &[u8]) -> Result<Columns, String> {
                 } else {
                     4
                 };
-                appended.bytes = appended_bytes(&bytes[end..])?;
+                let tail = &bytes[mark..];
+                appended.begin = (mark + before_appended(tail)?) as u64;
             }
             "FieldData" | "Points" | "PointData" | "Cells" | "CellData" | "Verts" | "Lines"
             | "Strips" | "Polys" => section = tag.name,
@@ -111,19 +137,26 @@ fn read(bytes: &[u8]) -> Result<Columns, String> {
             "DataArray" => {
                 let name = tag.get("Name").to_owned();
                 let content = text.split('<').next().unwrap_or("");
+                let n = count.unwrap_or(0);
                 match section {
-                    "FieldData" if name.ends_with("_names") => {
-                        names.insert(name, strings(content));
+                    "FieldData" => {
+                        if let Some(column) = name.strip_suffix("_names") {
+                            names.insert(column.to_owned(), strings(content));
+                        }
                     }
                     "Points" => {
-                        let n = count.unwrap_or(0);
-                        points = Some(numbers(&tag, content, &appended, n, 3)?);
+                        let mut split = |points: &[f64]| {
+                            for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                                let along = points.iter().skip(axis).step_by(3);
+                                take(name, &along.copied().collect::<Vec<f64>>());
+                            }
+                        };
+                        numbers(&tag, content, &mut appended, n, 3, &mut split)?;
+                        has_points = true;
                     }
                     "PointData" if matches!(tag.get("NumberOfComponents"), "" | "1") => {
-                        let n = count.unwrap_or(0);
-                        columns
-                            .numbers
-                            .insert(name, numbers(&tag, content, &appended, n, 1)?);
+                        let mut whole = |piece: &[f64]| take(&name, piece);
+                        numbers(&tag, content, &mut appended, n, 1, &mut whole)?;
                     }
                     _ => {}
                 }
@@ -136,17 +169,10 @@ fn read(bytes: &[u8]) -> Result<Columns, String> {
             "this is no VTU or VTP file; one begins with <VTKFile type=\"UnstructuredGrid\" or \"PolyData\"".into(),
         );
     }
-    let points = points.ok_or_else(|| damaged("it has no points"))?;
-    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        let coordinates: Vec<f64> = points.iter().skip(axis).step_by(3).copied().collect();
-        columns.numbers.insert(name.to_owned(), coordinates);
+    if !has_points {
+        return Err(damaged("it has no points"));
     }
-    for (name, words) in names {
-        if let Some(column) = name.strip_suffix("_names") {
-            columns.name(column, |code| words.get(code).cloned());
-        }
-    }
-    Ok(columns)
+    Ok(names)
 }
 
 fn damaged(what: &str) -> String {
@@ -174,17 +200,34 @@ fn check_head(tag: &Tag<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// What stands behind the underscore of the appended part.
-fn appended_bytes(tail: &[u8]) -> Result<&[u8], String> {
+/// The text before the appended part with what comes next of it, and where that begins; all of a file that has none.
+fn head<R: Read>(source: &mut R) -> Result<(Vec<u8>, usize), String> {
+    let mut bytes = Vec::new();
+    let mut mark = None;
+    loop {
+        let before = bytes.len();
+        let mut piece = source.by_ref().take(PIECE as u64);
+        piece.read_to_end(&mut bytes).map_err(|e| e.to_string())?;
+        // A piece more than the mark itself: it has an end, and numbers begin behind that.
+        if mark.is_some() || bytes.len() == before {
+            return Ok((bytes, mark.unwrap_or(before)));
+        }
+        let from = before.saturating_sub(MARK.len());
+        mark = find(&bytes[from..], MARK).map(|at| from + at);
+    }
+}
+
+/// How far behind the beginning of the appended part its numbers begin: behind an underscore.
+fn before_appended(tail: &[u8]) -> Result<usize, String> {
     if tail.is_empty() {
-        return Ok(tail);
+        return Ok(0);
     }
     let close = find(tail, b">").ok_or_else(|| damaged("its end is missing"))?;
     if find(&tail[..close], b"raw").is_none() {
         return Err("the VTK file's numbers are in base64, which is not read; save it appended raw or ascii (or as .csv)".into());
     }
     let start = find(&tail[close..], b"_").ok_or_else(|| damaged("its end is missing"))?;
-    Ok(&tail[close + start + 1..])
+    Ok(close + start + 1)
 }
 
 /// The strings of an array of letters by number, each ended by 0.
@@ -202,57 +245,82 @@ fn strings(content: &str) -> Vec<String> {
     all
 }
 
-fn numbers(
+/// Gives an array's numbers away, a piece at a time.
+fn numbers<R: Read + Seek>(
     tag: &Tag<'_>,
     content: &str,
-    appended: &Appended<'_>,
+    appended: &mut Appended<'_, R>,
     count: usize,
     components: usize,
-) -> Result<Vec<f64>, String> {
+    take: &mut dyn FnMut(&[f64]),
+) -> Result<(), String> {
     let name = tag.get("Name");
-    let all: Vec<f64> = match tag.get("format") {
-        "ascii" => content
-            .split_whitespace()
-            .map(|word| {
-                word.parse().map_err(|_| {
-                    damaged(&format!(
-                        "\"{}\" in array {name} is no number",
-                        word.chars().take(20).collect::<String>()
-                    ))
+    let check = |found: usize| {
+        if Some(found) == count.checked_mul(components) {
+            return Ok(());
+        }
+        Err(damaged(&format!(
+            "array {name} has {found} numbers for {count} points"
+        )))
+    };
+    match tag.get("format") {
+        "ascii" => {
+            let all: Vec<f64> = content
+                .split_whitespace()
+                .map(|word| {
+                    word.parse().map_err(|_| {
+                        damaged(&format!(
+                            "\"{}\" in array {name} is no number",
+                            word.chars().take(20).collect::<String>()
+                        ))
+                    })
                 })
-            })
-            .collect::<Result<_, _>>()?,
+                .collect::<Result<_, _>>()?;
+            check(all.len())?;
+            take(&all);
+            Ok(())
+        }
         "appended" => {
-            let offset: usize = tag
+            let offset: u64 = tag
                 .get("offset")
                 .parse()
                 .map_err(|_| damaged(&format!("array {name} has no offset")))?;
-            let bytes = block(appended, offset)
-                .ok_or_else(|| damaged(&format!("array {name} is cut off")))?;
-            number_type(tag.get("type"))?.numbers(ByteOrder::Little, bytes)
+            let kind = number_type(tag.get("type"))?;
+            let cut_off = || damaged(&format!("array {name} is cut off"));
+            let mut left = appended.length_at(offset).ok_or_else(cut_off)?;
+            check(left / kind.size())?;
+            let mut bytes = vec![0; left.min(PIECE)];
+            loop {
+                let piece = &mut bytes[..left.min(PIECE)];
+                (appended.source.read_exact(piece)).map_err(|_| cut_off())?;
+                take(&kind.numbers(ByteOrder::Little, piece));
+                left -= piece.len();
+                if left == 0 {
+                    return Ok(());
+                }
+            }
         }
-        other => {
-            return Err(format!(
-                "array {name} of the VTK file is in format \"{other}\", which is not read; save it appended raw or ascii (or as .csv)"
-            ));
-        }
-    };
-    if Some(all.len()) != count.checked_mul(components) {
-        return Err(damaged(&format!(
-            "array {name} has {} numbers for {count} points",
-            all.len()
-        )));
+        other => Err(format!(
+            "array {name} of the VTK file is in format \"{other}\", which is not read; save it appended raw or ascii (or as .csv)"
+        )),
     }
-    Ok(all)
 }
 
-/// The bytes of the array at `offset`, without its length.
-fn block<'a>(appended: &Appended<'a>, offset: usize) -> Option<&'a [u8]> {
-    let start = offset.checked_add(appended.length_bytes)?;
-    let mut length = [0; 8];
-    length[..appended.length_bytes].copy_from_slice(appended.bytes.get(offset..start)?);
-    let length = usize::try_from(u64::from_le_bytes(length)).ok()?;
-    appended.bytes.get(start..start.checked_add(length)?)
+impl<R: Read + Seek> Appended<'_, R> {
+    /// The bytes of the array at `offset`, which are read next; `None` where the file does not have as many.
+    fn length_at(&mut self, offset: u64) -> Option<usize> {
+        let begin = self.begin.checked_add(offset)?;
+        if self.begin == 0 || begin > self.end {
+            return None;
+        }
+        self.source.seek(SeekFrom::Start(begin)).ok()?;
+        let mut length = [0; 8];
+        let bytes = &mut length[..self.length_bytes];
+        self.source.read_exact(bytes).ok()?;
+        let length = u64::from_le_bytes(length);
+        let left = self.end - begin - self.length_bytes as u64;
+        (length <= left).then(|| usize::try_from(length).ok())?
+    }
 }
 
 fn number_type(name: &str) -> Result<NumberType, String> {

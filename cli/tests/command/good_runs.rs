@@ -96,7 +96,10 @@ fn a_cylinder_with_every_file() {
     assert_eq!(found, expected);
     for (table, names) in [
         ("particles", "boundary fixed fluid free frozen solid total"),
-        ("density", "lattice linf max min rms total_variation"),
+        (
+            "density",
+            "lattice linf linf_lattice max min rms total_variation",
+        ),
         ("residual", "max max_tangential mean rms"),
         (
             "seconds",

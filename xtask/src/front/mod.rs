@@ -19,13 +19,12 @@ mod sheet;
 mod shipped_table;
 mod table;
 
-use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use crate::arguments::Arguments;
 use crate::selection::Selection;
-use crate::workspace::root;
+use crate::workspace::{root, write};
 use figures::Ended;
 use packings::Packings;
 use points::{Place, Point, places, points};
@@ -148,9 +147,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     }
     // Of some scenes alone it would promise what the others do not keep.
     if selection.write && selection.only.is_none() && !selection.quick {
-        let path = root().join(shipped_table::FILE);
-        fs::write(&path, shipped_table::text(&sheets))
-            .map_err(|error| format!("{}: {error}", path.display()))?;
+        write(shipped_table::FILE, &shipped_table::text(&sheets))?;
     }
     print!("{}", advice::table(&sheets).markdown());
     let beaten = advice::beaten(&sheets);

@@ -84,8 +84,7 @@ fn figures<const D: usize>(solution: &Solution<D>, outcome: &Outcome) -> Figures
     let by = |(kernel, h)| packed.quality_by(&packed.fields(kernel, h));
     let own = by(DENSITY);
     let judged = (judges(D).iter())
-        .map(|&judge| by(judge).density)
-        .map(|density| (density.max - density.lattice).max(density.lattice - density.min))
+        .map(|&judge| by(judge).density.linf_lattice)
         .collect();
     let count = &report.particles;
     let particles = (count.total - count.frozen) as f64;

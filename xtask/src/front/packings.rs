@@ -34,8 +34,7 @@ impl Packings {
 
     /// What a scene's packing came to, if it is known.
     pub(super) fn known(&self, scene: &Scene) -> Option<Ended> {
-        let result = self.kept.path(&text(scene).ok()?, "json");
-        serde_json::from_slice(&fs::read(result).ok()?).ok()
+        self.kept.known(&text(scene).ok()?)
     }
 
     /// What a scene's packing comes to; packs where that is not known.
@@ -52,8 +51,7 @@ impl Packings {
         let ended = Ended::LeftOut(format!(
             "it takes more than {MOST_SECONDS} s of processor time"
         ));
-        let text = serde_json::to_string(&ended).map_err(|error| error.to_string())?;
-        fs::write(&result, text).map_err(|error| format!("{}: {error}", result.display()))?;
+        self.kept.keep(&text, &ended)?;
         Ok(ended)
     }
 }

@@ -26,7 +26,12 @@ const fn missing(
 }
 
 /// What every figure shows, in our words; those without rows say why.
-pub(crate) const FIGURES: [Figure; 33] = [
+pub(crate) const FIGURES: [Figure; 37] = [
+    shown(
+        "000",
+        "fig4",
+        "the repulsion beside one of Lennard-Jones's kind",
+    ),
     shown("000", "fig7", "which lattices stand a perturbation"),
     shown(
         "000",
@@ -54,6 +59,12 @@ pub(crate) const FIGURES: [Figure; 33] = [
         "sec2.7",
         "which particles are inside: by signed angles in the plane, by rays in space",
     ),
+    shown(
+        "000",
+        "fig15",
+        "a sphere: a clipped lattice, and packed particles",
+    ),
+    shown("000", "fig18", "a rabbit: particles on its surface"),
     missing("000", "fig13", "flow past a cylinder", FLOW),
     shown(
         "001",
@@ -146,6 +157,11 @@ pub(crate) const FIGURES: [Figure; 33] = [
         "004",
         "fig14",
         "a zig-zag wall by separate and complex relaxation",
+    ),
+    shown(
+        "004",
+        "fig17",
+        "a rabbit: kernel gradients in the fluid's first layer",
     ),
     missing(
         "004",

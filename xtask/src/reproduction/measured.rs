@@ -5,12 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 use sphpack::picture::{self, PictureFormat, draw};
-use sphpack::{Options, Outcome, Packing, run as pack};
+use sphpack::{Options, Outcome, Packing, Solution, run as pack};
 use sphpack_kernels::KernelKind;
 use sphpack_neighbors::point;
-use sphpack_packing::Silent;
+use sphpack_packing::{Kind, Silent};
 
 use super::divergence::found;
 use super::interpolation::{Study, study};
@@ -21,7 +21,6 @@ use super::trials::Trial;
 use crate::figures::variation_near;
 use crate::kept::Kept;
 use crate::selection::Selection;
-use crate::shipped::load;
 
 /// What a packing came to.
 #[derive(Debug, Clone)]
@@ -76,8 +75,8 @@ impl Store {
     }
 
     fn tried(&self, trial: &Trial, selection: &Selection) -> Result<Option<Measured>, String> {
-        let entry = self.trials.path(&format!("{trial:?}"), "json");
-        if let Some(kept) = read(&entry, None) {
+        let of = format!("{trial:?}");
+        if let Some(kept) = known(&self.trials, &of, None) {
             return Ok(Some(kept));
         }
         eprintln!("   trying {}", trial.words());
@@ -91,7 +90,7 @@ impl Store {
             is_at_rest: true,
             picture: None,
         };
-        measured.write(&entry)?;
+        self.trials.keep(&of, &Stored::of(&measured))?;
         Ok(Some(measured))
     }
 
@@ -102,28 +101,16 @@ impl Store {
         selection: &Selection,
     ) -> Result<Option<Measured>, String> {
         let of = format!("{setup:?}");
-        let entry = self.kept.path(&of, "json");
         let picture = self.kept.path(&of, "png");
-        if let Some(kept) = read(&entry, Some(&picture))
+        if let Some(kept) = known(&self.kept, &of, Some(&picture))
             && (!interpolates || kept.figures.keys().any(|measure| measure.interpolates()))
         {
             return Ok(Some(kept));
         }
-        let Some(mut scene) = load(setup.scene, selection)? else {
+        let Some(scene) = setup.scene(selection)? else {
             return Ok(None);
         };
         eprintln!("   packing {}", setup.words());
-        scene.spacing = setup.spacing / setup.enlarged;
-        scene.packing.method = setup.method;
-        scene.packing.kernel = setup.kernel.or(scene.packing.kernel);
-        scene.packing.finish = setup.finish;
-        scene.packing.h_over_spacing = setup.h_over_spacing.or(scene.packing.h_over_spacing);
-        scene.packing.velocity_tolerance = setup.tolerance;
-        scene.packing.max_iterations = setup.patience;
-        if let Some(h) = setup.judged_at {
-            scene.quality.kernel = Some(setup.kernel.unwrap_or(KernelKind::Quintic));
-            scene.quality.h_over_spacing = Some(h);
-        }
         let start = Instant::now();
         let outcome = pack(&scene, &Options::default(), &mut Silent);
         let outcome = outcome.map_err(|error| error.to_string())?;
@@ -140,30 +127,39 @@ impl Store {
             picture: Some(picture.clone()),
         };
         paint(&outcome, &picture)?;
-        measured.write(&entry)?;
+        self.kept.keep(&of, &Stored::of(&measured))?;
         Ok(Some(measured))
     }
 }
 
-impl Measured {
-    fn write(&self, entry: &Path) -> Result<(), String> {
-        let figures: serde_json::Map<String, Value> = (self.figures.iter())
-            .map(|(measure, value)| (measure.name().to_owned(), json!(value)))
-            .collect();
-        let text = json!({ "at_rest": self.is_at_rest, "figures": figures }).to_string();
-        fs::write(entry, text).map_err(|error| format!("{}: {error}", entry.display()))
+/// A result as it is kept.
+#[derive(Debug, Serialize, Deserialize)]
+struct Stored {
+    at_rest: bool,
+    /// By the measures' names; no number where there is none.
+    figures: BTreeMap<String, Option<f64>>,
+}
+
+impl Stored {
+    fn of(measured: &Measured) -> Self {
+        Self {
+            at_rest: measured.is_at_rest,
+            figures: (measured.figures.iter())
+                .map(|(measure, &value)| (measure.name().to_owned(), Some(value)))
+                .collect(),
+        }
     }
 }
 
-fn read(entry: &Path, picture: Option<&Path>) -> Option<Measured> {
-    let kept: Value = serde_json::from_slice(&fs::read(entry).ok()?).ok()?;
-    let all = kept.get("figures")?.as_object()?;
+/// What is known of a subject, its picture among it where it has one.
+fn known(kept: &Kept, of: &str, picture: Option<&Path>) -> Option<Measured> {
     picture.is_none_or(Path::is_file).then_some(())?;
+    let Stored { at_rest, figures } = kept.known(of)?;
     Some(Measured {
         figures: (Measure::ALL.into_iter())
-            .filter_map(|measure| Some((measure, all.get(measure.name())?.as_f64()?)))
+            .filter_map(|measure| Some((measure, (*figures.get(measure.name())?)?)))
             .collect(),
-        is_at_rest: kept.get("at_rest")?.as_bool()?,
+        is_at_rest: at_rest,
         picture: picture.map(Path::to_owned),
     })
 }
@@ -176,9 +172,9 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
     let off = (report.surface.iter())
         .map(|surface| surface.max_distance_over_spacing)
         .fold(0.0, f64::max);
-    let near = match &outcome.packing {
-        Packing::Plane(solution) => variation_near(&solution.packed, &solution.fields.gamma),
-        Packing::Space(solution) => variation_near(&solution.packed, &solution.fields.gamma),
+    let [near, of_fluid] = match &outcome.packing {
+        Packing::Plane(solution) => near_and_fluid(solution),
+        Packing::Space(solution) => near_and_fluid(solution),
     };
     let mut figures = BTreeMap::from([
         (Measure::Variation, report.density.total_variation),
@@ -186,6 +182,7 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
         (Measure::Linf, report.density.linf),
         (Measure::Residual, report.residual.max),
         (Measure::ResidualRms, report.residual.rms),
+        (Measure::FluidResidual, of_fluid),
         (Measure::OffSurface, off),
         (Measure::ClosestPair, report.closest_pair_over_spacing),
         (
@@ -202,6 +199,19 @@ fn of_report(outcome: &Outcome, seconds: f64) -> BTreeMap<Measure, f64> {
         figures.insert(Measure::SurfaceFalse, found.false_ones);
     }
     figures
+}
+
+/// The variation near the bodies, and the largest residual of the fluid.
+fn near_and_fluid<const D: usize>(solution: &Solution<D>) -> [f64; 2] {
+    let particles = &solution.packed.particles;
+    let of_fluid = (0..particles.len())
+        .filter(|&i| particles.kind[i] != Kind::Frozen && particles.body[i].is_none())
+        .map(|i| solution.fields.residual(i))
+        .fold(0.0, f64::max);
+    [
+        variation_near(&solution.packed, &solution.fields.gamma),
+        of_fluid,
+    ]
 }
 
 fn interpolated(outcome: &Outcome, kernel: KernelKind, h_over_spacing: f64) -> Vec<(Measure, f64)> {

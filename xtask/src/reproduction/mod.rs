@@ -17,11 +17,13 @@ mod trials;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
+use std::path::Path;
 
 use crate::arguments::Arguments;
 use crate::power_law::PowerLaw;
 use crate::selection::Selection;
-use crate::workspace::root;
+use crate::shown_table::ShownTable;
+use crate::workspace::{root, write};
 use claims::{FIGURES, KNOWN_MISSES};
 use measure::Measure;
 pub(crate) use measured::paint;
@@ -41,17 +43,26 @@ pub(crate) struct Settings {
     selection: Selection,
     /// The one paper.
     paper: Option<String>,
+    /// Rows of an hour each, too.
+    fine: bool,
 }
 
 impl Settings {
     /// The arguments that say it.
-    pub(crate) const KNOWN: &[&str] =
-        &[PAPERS, "--only FIGURE", "--quick", "--data DIR", "--write"];
+    pub(crate) const KNOWN: &[&str] = &[
+        PAPERS,
+        "--only FIGURE",
+        "--quick",
+        "--fine",
+        "--data DIR",
+        "--write",
+    ];
 
     pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
         let settings = Self {
             selection: Selection::of(arguments)?,
             paper: arguments.text(PAPERS),
+            fine: arguments.has("--fine"),
         };
         if settings.selection.write && settings.paper.is_some() {
             return Err("--write needs every row: leave the paper out".to_owned());
@@ -67,11 +78,13 @@ impl Settings {
                 ..Selection::default()
             },
             paper: None,
+            fine: false,
         }
     }
 
     fn wants(&self, row: &Row) -> bool {
         self.selection.wants(row.figure, row.quick)
+            && (self.fine || !row.fine)
             && self.paper.as_ref().is_none_or(|paper| paper == row.paper)
     }
 }
@@ -98,7 +111,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         return Err(format!("no row is asked for; there are {}", all.join(", ")));
     }
     let mut results = Vec::new();
-    print!("{HEAD}");
+    let mut table = ShownTable::new(HEAD);
     for (number, row) in asked.iter().enumerate() {
         eprintln!("── {} of {}: {}", number + 1, asked.len(), row.id());
         let interpolates = (asked.iter()).any(|other| {
@@ -110,14 +123,15 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             .map(|other| store.measured(other, row.measure.interpolates(), &settings.selection))
             .collect::<Result<Vec<Option<Measured>>, String>>()?;
         let ended = judged(row, own, others.into_iter().collect());
-        print!("{}", line(&ended));
+        table.push(&line(&ended));
         results.push(ended);
     }
     curves::write(&folder, &results)?;
+    write_scenes(&folder.join(SCENES), &results, &settings.selection)?;
     page::write(&folder, &results, settings.selection.quick)?;
     eprintln!("── {}", folder.join("index.html").display());
     if settings.selection.write {
-        write_page(&results, settings.selection.quick)?;
+        document(&table.into_text(), settings.selection.quick)?;
     }
     let changed: Vec<String> = (results.iter())
         .filter(|result| result.verdict == Verdict::Changed)
@@ -131,6 +145,26 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             changed.join("; ")
         ))
     }
+}
+
+/// The folder of the scenes that the rows' numbers are of.
+const SCENES: &str = "scenes";
+
+/// Writes every packed scene as a file that can be packed again.
+fn write_scenes(folder: &Path, results: &[Ended], selection: &Selection) -> Result<(), String> {
+    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    for result in results {
+        let Some(setup) = result.row.subject.packing() else {
+            continue;
+        };
+        let Some(scene) = setup.scene(selection)? else {
+            continue;
+        };
+        let path = folder.join(setup.file_name());
+        let text = toml::to_string(&scene).map_err(|error| error.to_string())?;
+        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    Ok(())
 }
 
 /// The row's number, and a curve where it is of one; `None` where a figure is missing.
@@ -216,7 +250,7 @@ fn line(ended: &Ended) -> String {
 }
 
 /// Writes docs/reproduction.md.
-fn write_page(results: &[Ended], is_quick: bool) -> Result<(), String> {
+fn document(table: &str, is_quick: bool) -> Result<(), String> {
     let mut text = format!(
         "# What the papers print, and ours\n\n\
          Papers go by their numbers in [papers.md](papers.md). Defaults, no tuning per shape{}. Regenerate with\n\
@@ -224,16 +258,13 @@ fn write_page(results: &[Ended], is_quick: bool) -> Result<(), String> {
          `target/reproduction/index.html`. Published numbers are from the papers' texts and tables. A row *holds* where ours is within its bar,\n\
          rows *beside* are not judged; a ratio is the named method's number over the first one's. A slope is fitted in logarithms. Curves, of the repulsion and\n\
          of errors against h/∆s, are in `target/reproduction` as CSV and SVG. Times are wall-clock seconds of the packing and depend on the\n\
-         machine.\n\n{HEAD}",
+         machine.\n\n{table}",
         if is_quick {
             " (the quick rows only)"
         } else {
             ""
         }
     );
-    for result in results {
-        text.push_str(&line(result));
-    }
     if !KNOWN_MISSES.is_empty() {
         text.push_str("\n## Known misses\n\n| row | why |\n|---|---|\n");
         for (id, why) in KNOWN_MISSES {
@@ -252,6 +283,5 @@ fn write_page(results: &[Ended], is_quick: bool) -> Result<(), String> {
             );
         }
     }
-    let path = root().join("docs/reproduction.md");
-    fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+    write("docs/reproduction.md", &text)
 }

@@ -1,4 +1,4 @@
-//! The reproduction as files: a page that needs no other file, a table for programs, and curves.
+//! The reproduction as files: a page with its pictures in it, a table for programs, and curves.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -6,8 +6,10 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::SCENES;
 use super::claims::FIGURES;
 use super::row::{Figure, Published, Row};
+use super::setup::Setup;
 use super::thumbnail::thumbnail;
 
 /// A row, and what came of it.
@@ -118,6 +120,7 @@ fn summary(result: &Result) -> Value {
         "figure": row.figure,
         "scene": row.subject.packing().map(|setup| setup.scene),
         "setup": row.subject.words(),
+        "scene_file": row.subject.packing().map(scene_file),
         "taken": row.taken.words(),
         "measure": row.measure.name(),
         "published": match row.published {
@@ -128,6 +131,11 @@ fn summary(result: &Result) -> Value {
         "verdict": result.verdict.name(),
         "seconds": result.seconds,
     })
+}
+
+/// Where a packing's scene is, from the page.
+fn scene_file(setup: &Setup) -> String {
+    format!("{SCENES}/{}", setup.file_name())
 }
 
 /// Pictures of a figure, at most.
@@ -148,7 +156,8 @@ fn html(results: &[Result], is_quick: bool) -> std::result::Result<String, Strin
         out,
         "<h1>Packing, published and ours{form}</h1>\n<p>What five papers print about packing, beside what this program gets. \
          Papers go by the numbers of docs/papers.md. A row <em>holds</em> where our number is within its bar; rows <em>beside</em> are not judged. \
-         Ratios are the named method's number over the first one's. A picture is larger after a click on it.</p>\n"
+         Ratios are the named method's number over the first one's. A packing's name leads to its scene, which <code>sphpack pack FILE</code> packs again. \
+         A picture is larger after a click on it.</p>\n"
     );
     // Figures share packings: each picture is shown with the first.
     let mut shown = Vec::new();
@@ -190,10 +199,14 @@ fn section<'a>(
             Verdict::Beside | Verdict::NoData => "",
         };
         let taken = row.taken.words();
+        let words = row.subject.words();
+        let packing = (row.subject.packing()).map_or_else(
+            || words.clone(),
+            |setup| format!("<a href=\"{}\">{words}</a>", scene_file(setup)),
+        );
         let _ = writeln!(
             out,
-            "<tr><td>{}{taken}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{class}\">{}</td><td class=\"n\">{:.1}</td></tr>",
-            row.subject.words(),
+            "<tr><td>{packing}{taken}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{class}\">{}</td><td class=\"n\">{:.1}</td></tr>",
             row.measure.name(),
             published(row),
             result.ours.map_or_else(|| "–".to_owned(), self::figure),

@@ -91,6 +91,8 @@ pub(crate) struct Row {
     pub(crate) bar: Bar,
     /// Whether it runs with `--quick`.
     pub(crate) quick: bool,
+    /// Whether it takes so long that it runs with `--fine` alone.
+    pub(crate) fine: bool,
 }
 
 impl Row {

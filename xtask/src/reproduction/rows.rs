@@ -6,6 +6,7 @@ mod captured;
 mod displaced;
 mod elements;
 mod fluids;
+mod in_space;
 mod moving_bodies;
 mod repelled;
 mod separated;
@@ -13,8 +14,6 @@ mod slopes;
 mod stirred;
 
 use sphpack::scene::Method;
-
-use crate::shipped::iterations_together;
 
 use super::measure::Measure;
 use super::row::{Bar, Published, Row, Taken};
@@ -38,6 +37,7 @@ fn row(figure: &'static str, subject: impl Into<Subject>, measure: Measure) -> R
         published: PICTURE,
         bar: Bar::Beside,
         quick: false,
+        fine: false,
     }
 }
 
@@ -81,6 +81,10 @@ impl Row {
         }
     }
 
+    fn fine(self) -> Self {
+        Self { fine: true, ..self }
+    }
+
     fn under(self, over: impl Into<Subject>) -> Self {
         Self {
             taken: Taken::Over(over.into()),
@@ -99,7 +103,7 @@ pub(crate) fn rows() -> Vec<Row> {
     cylinder(&mut all);
     zigzag(&mut all);
     starfish_and_airfoil(&mut all);
-    space(&mut all);
+    in_space::in_space(&mut all);
     first_version(&mut all);
     tanks(&mut all);
     fluids::fluids(&mut all);
@@ -286,36 +290,7 @@ fn starfish_and_airfoil(all: &mut Vec<Row>) {
     );
 }
 
-/// 001 figs. 19 to 21.
-fn space(all: &mut Vec<Row>) {
-    let ellipsoid = |method| Setup::of("ellipsoid", 0.1, method);
-    let hybrid = ellipsoid(Method::Hybrid).at(1.2);
-    let close = |setup| {
-        row("fig19", setup, Measure::Linf)
-            .claims("very close to 1")
-            .at_most(0.04)
-    };
-    all.push(close(hybrid).quick());
-    all.push(close(ellipsoid(Method::Balanced)).quick());
-    let at = |method| {
-        let setup = ellipsoid(method).at(1.0).judged(1.0);
-        setup.within(iterations_together(method, 2000))
-    };
-    for measure in [Measure::FunctionAsPrinted, Measure::DerivativeAsPrinted] {
-        let ratio = row("fig20", at(Method::Hybrid), measure).under(at(Method::Coupled));
-        all.push(ratio.claims("lower than the coupled method").at_least(1.0));
-    }
-    for (spacing, method) in [
-        (0.05, Method::Hybrid),
-        (0.05, Method::Balanced),
-        (0.02, Method::Balanced),
-    ] {
-        let setup = Setup::of("bunny", spacing, method).at(1.2);
-        all.push(row("fig21", setup, Measure::OffSurface).at_most(0.05));
-    }
-}
-
-/// 000 figs. 8, 12 and 18: clipping, triangles, and their own method.
+/// 000 figs. 8 and 12: clipping, triangles, and their own method.
 fn first_version(all: &mut Vec<Row>) {
     for (figure, scene, spacing, quick) in [
         ("fig8", "cylinder", 0.1, true),

@@ -1,7 +1,13 @@
 //! How a scene is packed and judged.
 
+use std::fmt::Write as _;
+
+use sphpack::Scene;
 use sphpack::scene::{Finish, Method};
 use sphpack_kernels::KernelKind;
+
+use crate::selection::Selection;
+use crate::shipped::load;
 
 /// How a scene is packed and judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,5 +117,51 @@ impl Setup {
             self.spacing,
             self.method_name()
         )
+    }
+
+    /// The scene that is packed; `None` where its body's file is not there.
+    pub(crate) fn scene(&self, selection: &Selection) -> Result<Option<Scene>, String> {
+        let Some(mut scene) = load(self.scene, selection)? else {
+            return Ok(None);
+        };
+        scene.spacing = self.spacing / self.enlarged;
+        scene.packing.method = self.method;
+        scene.packing.kernel = self.kernel.or(scene.packing.kernel);
+        scene.packing.finish = self.finish;
+        scene.packing.h_over_spacing = self.h_over_spacing.or(scene.packing.h_over_spacing);
+        scene.packing.velocity_tolerance = self.tolerance;
+        scene.packing.max_iterations = self.patience;
+        if let Some(h) = self.judged_at {
+            scene.quality.kernel = Some(self.kernel.unwrap_or(KernelKind::Quintic));
+            scene.quality.h_over_spacing = Some(h);
+        }
+        Ok(Some(scene))
+    }
+
+    /// A name for the scene's file that tells it from those of all other setups.
+    pub(crate) fn file_name(&self) -> String {
+        let usual = Self::of(self.scene, self.spacing, self.method);
+        let mut name = format!("{}-{}", self.scene, self.spacing / self.enlarged);
+        // Writing to a string cannot fail.
+        let _ = write!(name, "-{}", self.method.name());
+        if self.finish != usual.finish {
+            let _ = write!(name, "-{}", self.method_name().replace("balanced ", ""));
+        }
+        if let Some(kernel) = self.kernel {
+            let _ = write!(name, "-{kernel}");
+        }
+        if let Some(h) = self.h_over_spacing {
+            let _ = write!(name, "-h{h}");
+        }
+        if let Some(h) = self.judged_at {
+            let _ = write!(name, "-judged{h}");
+        }
+        if self.tolerance != usual.tolerance {
+            let _ = write!(name, "-to{:e}", self.tolerance);
+        }
+        if self.patience != usual.patience {
+            let _ = write!(name, "-within{}", self.patience);
+        }
+        name + ".toml"
     }
 }

@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 
+use serde::{Deserialize, Serialize};
 use sphpack::Scene;
 
+use crate::bench::Bench;
 use crate::workspace::root;
 
 /// What one run took and gave.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Run {
     /// From the start of the process to its end.
     pub(super) seconds: f64,
@@ -39,12 +41,18 @@ pub(super) fn build() -> Result<(), String> {
 }
 
 /// Packs a scene in a process of its own, to a VTU file, on two threads; of `repeats` the quickest.
-pub(super) fn run(scene: &Scene, repeats: usize) -> Result<Run, String> {
+pub(super) fn run(scene: &Scene, repeats: usize, bench: &Bench) -> Result<Run, String> {
+    let text = toml::to_string(scene).map_err(|error| error.to_string())?;
+    bench.once(&format!("{repeats} × {text}"), || {
+        timed(scene, &text, repeats)
+    })
+}
+
+fn timed(scene: &Scene, text: &str, repeats: usize) -> Result<Run, String> {
     let folder = root().join("target/speed");
     let at = |error: std::io::Error| format!("{}: {error}", folder.display());
     fs::create_dir_all(&folder).map_err(at)?;
     let path = |ending: &str| -> PathBuf { folder.join(format!("{}.{ending}", scene.name)) };
-    let text = toml::to_string(scene).map_err(|error| error.to_string())?;
     fs::write(path("toml"), text).map_err(at)?;
     let program = root()
         .join("target/release/sphpack")

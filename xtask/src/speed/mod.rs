@@ -4,14 +4,13 @@ mod job;
 mod machine;
 mod pair_loop;
 
-use std::fmt::Write as _;
-use std::fs;
-
 use sphpack::scene::BandWidth;
 
+use crate::bench::Bench;
 use crate::selection::Selection;
 use crate::shipped::load;
-use crate::workspace::root;
+use crate::shown_table::ShownTable;
+use crate::workspace::write;
 
 /// A job with a bar: scene, ∆s, h/∆s, seconds, GiB, repeats, whether it is quick.
 type Job = (
@@ -47,7 +46,6 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
     let finer = finer(selection)?;
     let pairs = pair_loop::table()?;
     if selection.write {
-        let path = root().join("docs/speed.md");
         let text = format!(
             "# Speed\n\n\
              Release profile, two threads, method balanced with its defaults. Times are wall-clock seconds and depend on\n\
@@ -60,17 +58,22 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
              row before: 2 goes with the surface, 3 with the box.\n\n{finer}\n\
              ## The pair loop against the machine\n\n{pairs}"
         );
-        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        write("docs/speed.md", &text)?;
     }
     Ok(())
 }
 
+/// Whole jobs, each timed once until the code changes.
+fn bench() -> Result<Bench, String> {
+    Bench::open(&[file!(), "xtask/src/speed/job.rs"])
+}
+
 fn jobs(selection: &Selection) -> Result<String, String> {
-    let mut table = String::from(
+    let bench = bench()?;
+    let mut table = ShownTable::new(
         "| scene | ∆s | h/∆s | particles (solid) | seconds (bar) | of them geometry | peak memory, GiB (bar) | evaluations | L∞ |\n\
          |---|---|---|---|---|---|---|---|---|\n",
     );
-    print!("{table}");
     for (name, spacing, h, seconds, memory, repeats, quick) in JOBS {
         if !selection.wants(name, quick) {
             continue;
@@ -80,9 +83,9 @@ fn jobs(selection: &Selection) -> Result<String, String> {
         };
         scene.spacing = spacing;
         scene.packing.h_over_spacing = Some(h);
-        let run = job::run(&scene, repeats)?;
+        let run = job::run(&scene, repeats, &bench)?;
         let bar = |bar: Option<f64>| bar.map_or_else(String::new, |bar| format!(" (≤ {bar})"));
-        let line = format!(
+        table.push(&format!(
             "| {name} | {spacing} | {h} | {} ({}) | {:.3}{} | {:.0} % | {:.2}{} | {} | {:.2} % |\n",
             run.particles,
             run.solid,
@@ -93,18 +96,16 @@ fn jobs(selection: &Selection) -> Result<String, String> {
             bar(memory),
             run.evaluations,
             100.0 * run.linf,
-        );
-        print!("{line}");
-        table.push_str(&line);
+        ));
     }
-    Ok(table)
+    Ok(table.into_text())
 }
 
 fn finer(selection: &Selection) -> Result<String, String> {
-    let mut table = String::from(
+    let bench = bench()?;
+    let mut table = ShownTable::new(
         "| scene | band | ∆s | particles | seconds | growth | peak memory, GiB | growth | L∞ |\n|---|---|---|---|---|---|---|---|---|\n",
     );
-    print!("\n{table}");
     for (name, spacings) in FINER {
         if !selection.wants(name, name == "sphere") {
             continue;
@@ -117,30 +118,25 @@ fn finer(selection: &Selection) -> Result<String, String> {
                 };
                 scene.spacing = spacing;
                 scene.packing.band = band;
-                let run = job::run(&scene, 1)?;
+                let run = job::run(&scene, 1, &bench)?;
                 let growth = |of: fn(&job::Run) -> f64| {
                     before.map_or_else(String::new, |(coarser, before)| {
                         let exponent = (of(&run) / of(&before)).ln() / (coarser / spacing).ln();
                         format!("{exponent:.2}")
                     })
                 };
-                let mut line = String::new();
-                // Writing to a string cannot fail.
-                let _ = writeln!(
-                    line,
-                    "| {name} | {word} | {spacing} | {} | {:.2} | {} | {:.3} | {} | {:.3} % |",
+                table.push(&format!(
+                    "| {name} | {word} | {spacing} | {} | {:.2} | {} | {:.3} | {} | {:.3} % |\n",
                     run.particles,
                     run.seconds,
                     growth(|run| run.seconds),
                     run.peak_memory_bytes / GIB,
                     growth(|run| run.peak_memory_bytes),
                     100.0 * run.linf,
-                );
-                print!("{line}");
-                table.push_str(&line);
+                ));
                 before = Some((spacing, run));
             }
         }
     }
-    Ok(table)
+    Ok(table.into_text())
 }

@@ -14,10 +14,8 @@ mod sweep;
 mod time_step;
 mod zones;
 
-use std::fs;
-
 use crate::arguments::Arguments;
-use crate::workspace::root;
+use crate::workspace::write;
 
 /// What to run.
 #[derive(Debug, Clone, Copy)]
@@ -87,9 +85,4 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
         write("docs/stability.md", &page)?;
     }
     Ok(())
-}
-
-fn write(name: &str, text: &str) -> Result<(), String> {
-    let path = root().join(name);
-    fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
 }

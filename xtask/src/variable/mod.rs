@@ -15,7 +15,8 @@ use sphpack_packing::{Kind, Silent};
 use crate::chart::{Axis, Chart, Scale, Series};
 use crate::reproduction::paint;
 use crate::selection::Selection;
-use crate::workspace::root;
+use crate::shown_table::ShownTable;
+use crate::workspace::{root, write};
 use judged::Judged;
 use rows::{ROWS, Row};
 
@@ -26,8 +27,7 @@ const HEAD: &str = "\
 
 /// Packs every row; fails where one misses a bar.
 pub(crate) fn run(selection: &Selection) -> Result<(), String> {
-    let mut table = HEAD.to_owned();
-    print!("{HEAD}");
+    let mut table = ShownTable::new(HEAD);
     let mut missed = Vec::new();
     let mut curve = Vec::new();
     for row in ROWS
@@ -39,8 +39,7 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
                 "| {} | {} | no data | | | | | | | | | | | | | |\n",
                 row.scene, row.what
             );
-            print!("{line}");
-            table.push_str(&line);
+            table.push(&line);
             continue;
         };
         let outcome =
@@ -48,8 +47,7 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
         let judged = Judged::of(&outcome);
         let misses = misses(row, &outcome, &judged);
         let line = line(row, &outcome, &judged, &misses);
-        print!("{line}");
-        table.push_str(&line);
+        table.push(&line);
         if !misses.is_empty() {
             missed.push(format!(
                 "{} {}: {}",
@@ -63,7 +61,12 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
         }
     }
     if selection.write {
-        write(&table, &others::table()?, &time::table()?, &curve)?;
+        document(
+            &table.into_text(),
+            &others::table()?,
+            &time::table()?,
+            &curve,
+        )?;
     }
     if missed.is_empty() {
         Ok(())
@@ -188,12 +191,7 @@ fn draw_two(path: &Path) -> Result<(), String> {
     paint(&outcome, path)
 }
 
-fn write(table: &str, others: &str, time: &str, curve: &[(f64, Outcome)]) -> Result<(), String> {
-    let docs = root().join("docs");
-    let save = |name: &str, text: &str| {
-        let path = docs.join(name);
-        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
-    };
+fn document(table: &str, others: &str, time: &str, curve: &[(f64, Outcome)]) -> Result<(), String> {
     let series = |name: &str, of: &dyn Fn(&Outcome) -> f64| Series {
         name: name.to_owned(),
         points: curve
@@ -234,8 +232,8 @@ fn write(table: &str, others: &str, time: &str, curve: &[(f64, Outcome)]) -> Res
             }),
         ],
     };
-    save("variable-growth.svg", &chart.svg())?;
-    draw_two(&docs.join("variable-two.png"))?;
+    write("docs/variable-growth.svg", &chart.svg())?;
+    draw_two(&root().join("docs/variable-two.png"))?;
     let mut text = String::new();
     let _ = write!(
         text,
@@ -277,5 +275,5 @@ fn write(table: &str, others: &str, time: &str, curve: &[(f64, Outcome)]) -> Res
          are for particles of one size, and so is `thin = \"watertight\"`. Other methods refuse a field. Far from all bodies, where the field\n\
          is the same everywhere, particles are placed and moved like the others: there is no lattice.\n"
     );
-    save("variable.md", &text)
+    write("docs/variable.md", &text)
 }

@@ -1,4 +1,4 @@
-//! 001 fig. 5: the repulsion.
+//! 001 fig. 5 and 000 fig. 4: the repulsion.
 
 use super::row;
 use crate::reproduction::measure::Measure;
@@ -29,4 +29,16 @@ pub(super) fn repelled(all: &mut Vec<Row>) {
                 .at_least(1.0),
         ]);
     }
+    // The preprint's force has another form, and what it shows of it is the same.
+    let first = |measure| row("fig4", Repelled { alpha: ALPHA[0] }, measure).of("000");
+    all.extend([
+        first(Measure::Pulls)
+            .claims("no attraction")
+            .at_most(0.0)
+            .quick(),
+        first(Measure::LennardJonesOverOurs)
+            .claims("Lennard-Jones's rises faster")
+            .at_least(1.0)
+            .quick(),
+    ]);
 }

@@ -140,9 +140,8 @@ impl Bench {
             return Ok(None);
         }
         let case = case.placed();
-        let path = self.kept.path(&self.key(&case), "json");
-        let kept = fs::read_to_string(&path).ok();
-        if let Some(cell) = kept.and_then(|text| serde_json::from_str::<Cell>(&text).ok()) {
+        let of = self.key(&case);
+        if let Some(cell) = self.kept.known(&of) {
             return Ok(Some(cell));
         }
         let own = self.scratch.join(format!("worker{worker}"));
@@ -154,12 +153,7 @@ impl Bench {
         if cell.outcome == Outcome::Fails {
             keep(case, &file_name(map, number, method, place))?;
         }
-        let text = serde_json::to_string(&cell).map_err(|error| error.to_string())?;
-        // Whole or not at all, whenever it is stopped.
-        let beside = path.with_extension(format!("{worker}.part"));
-        fs::write(&beside, text)
-            .and_then(|()| fs::rename(&beside, &path))
-            .map_err(|error| format!("{}: {error}", path.display()))?;
+        self.kept.keep(&of, &cell)?;
         Ok(Some(cell))
     }
 
