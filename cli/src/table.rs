@@ -44,6 +44,29 @@ pub struct Table {
     pub smoothing_length: Vec<f64>,
 }
 
+/// Entries that a column is to keep, in their order.
+struct Picked<'a> {
+    order: &'a [u32],
+    is_sorted: bool,
+}
+
+impl Picked<'_> {
+    fn of<T: Copy>(&self, column: &mut Vec<T>) {
+        if column.is_empty() {
+            return;
+        }
+        if !self.is_sorted {
+            *column = self.order.iter().map(|&i| column[i as usize]).collect();
+            return;
+        }
+        // None comes before its place.
+        for (to, &from) in self.order.iter().enumerate() {
+            column[to] = column[from as usize];
+        }
+        column.truncate(self.order.len());
+    }
+}
+
 impl Table {
     /// Number of particles.
     pub fn len(&self) -> usize {
@@ -79,30 +102,27 @@ impl Table {
         self.in_order(&order)
     }
 
-    /// Column by column, so that no more than one is there twice, and none where the order is what it was.
+    /// Column by column, so that no more than one is there twice, and none where the order is what it was: then entries move up in
+    /// their place.
     fn in_order(mut self, order: &[u32]) -> Self {
-        if order.len() == self.len() && order.is_sorted() {
+        let is_sorted = order.is_sorted();
+        if order.len() == self.len() && is_sorted {
             return self;
         }
-        fn pick<T: Copy>(column: &mut Vec<T>, order: &[u32]) {
-            if column.is_empty() {
-                return;
-            }
-            *column = order.iter().map(|&i| column[i as usize]).collect();
-        }
-        pick(&mut self.id, order);
-        pick(&mut self.position, order);
-        pick(&mut self.kind, order);
-        pick(&mut self.side, order);
-        pick(&mut self.body, order);
-        pick(&mut self.volume, order);
-        pick(&mut self.mass, order);
-        pick(&mut self.gamma, order);
-        pick(&mut self.residual, order);
-        pick(&mut self.pressure, order);
-        pick(&mut self.density, order);
-        pick(&mut self.spacing, order);
-        pick(&mut self.smoothing_length, order);
+        let pick = Picked { order, is_sorted };
+        pick.of(&mut self.id);
+        pick.of(&mut self.position);
+        pick.of(&mut self.kind);
+        pick.of(&mut self.side);
+        pick.of(&mut self.body);
+        pick.of(&mut self.volume);
+        pick.of(&mut self.mass);
+        pick.of(&mut self.gamma);
+        pick.of(&mut self.residual);
+        pick.of(&mut self.pressure);
+        pick.of(&mut self.density);
+        pick.of(&mut self.spacing);
+        pick.of(&mut self.smoothing_length);
         self
     }
 
@@ -135,5 +155,30 @@ impl Table {
             .get(place.min(errors.len().saturating_sub(1)))
             .copied()
             .unwrap_or(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(id: &[u32]) -> Table {
+        Table {
+            id: id.to_vec(),
+            volume: id.iter().map(|&id| 0.5 * f64::from(id)).collect(),
+            ..Table::default()
+        }
+    }
+
+    #[test]
+    fn rows_that_are_kept_stay_together_and_in_order() {
+        let all = table(&[2, 3, 5, 7, 11]);
+        let some = all.filtered(|i| i % 2 == 0);
+        assert_eq!(some, table(&[2, 5, 11]));
+        assert_eq!(all.filtered(|_| true), all);
+        assert!(all.filtered(|_| false).is_empty());
+        let mixed = table(&[7, 2, 11, 5, 3]);
+        let keep = [true, true, false, true, true];
+        assert_eq!(mixed.kept_by_id(&keep), table(&[2, 3, 5, 7]));
     }
 }

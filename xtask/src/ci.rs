@@ -9,7 +9,7 @@ use std::time::Instant;
 use crate::scene_fuzz::{self, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
-use crate::{balanced, bodies, front, reproduction, stability, tidy, variable};
+use crate::{balanced, bodies, front, reproduction, stability, steady, tidy, variable};
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
 const RANDOM_SCENES: usize = 50;
@@ -44,7 +44,8 @@ const CHECKS: [Check; 17] = [
     }),
     ("stability", || {
         stability::run(&stability::Settings::quick())?;
-        maps::run(&maps::Settings::quick())
+        maps::run(&maps::Settings::quick())?;
+        steady::run(&steady::Settings::quick())
     }),
     ("balanced", || balanced::run(&quick())),
     ("chart", || front::run(&front::Settings::quick())),

@@ -40,6 +40,7 @@ mod shipped;
 mod shown_table;
 mod speed;
 mod stability;
+mod steady;
 mod tasks;
 mod tidy;
 mod variable;

@@ -6,7 +6,7 @@ use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
     balanced, bodies, ci, compare, corpora, draw, front, fuzz, lattices, reliability, reproduction,
-    round_trip, speed, stability, tidy, variable,
+    round_trip, speed, stability, steady, tidy, variable,
 };
 
 /// What is left to do once the arguments are read.
@@ -24,7 +24,7 @@ pub(crate) struct Task {
 }
 
 /// In the order of the usage; of one name the forms with flags come first.
-pub(crate) const TASKS: [Task; 22] = [
+pub(crate) const TASKS: [Task; 23] = [
     Task {
         name: "ci",
         known: &[],
@@ -238,6 +238,18 @@ pub(crate) const TASKS: [Task; 22] = [
         read: |given| {
             let settings = maps::Settings::of(given)?;
             Ok(Box::new(move || maps::run(&settings)))
+        },
+    },
+    Task {
+        name: "stability steady",
+        known: steady::Settings::KNOWN,
+        about: &[
+            "what should not matter: the lattice's offset and turn, seed, units; every kernel beside what it leaves",
+            "without a body; --quick packs a few, --write also writes docs/steady.md",
+        ],
+        read: |given| {
+            let settings = steady::Settings::of(given)?;
+            Ok(Box::new(move || steady::run(&settings)))
         },
     },
     Task {

@@ -1,0 +1,164 @@
+//! Packings by every kernel beside what that kernel leaves of particles that settle with no body in the way.
+
+use rayon::prelude::*;
+use sphpack_kernels::KernelKind;
+use sphpack_neighbors::Domain;
+use sphpack_neighbors::random::SplitMix64;
+use sphpack_packing::forces::Forces;
+use sphpack_packing::minimise::{Energy, Lbfgs, Minimiser, Step};
+use sphpack_packing::{Kind, Lattice, Particles, Sizes};
+use sphpack_pairs::Repulsion;
+
+use super::{Figures, Section, parsed};
+use crate::bench::Bench;
+use crate::shown_table::ShownTable;
+
+/// This file measures.
+pub(super) const SOURCE: &str = file!();
+
+/// h/∆s in the plane and in space.
+const PLANE: [f64; 11] = [1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2.0];
+const SPACE: [f64; 6] = [1.0, 1.2, 1.4, 1.6, 1.8, 2.0];
+const QUICK: f64 = 1.2;
+
+/// Edge of the periodic box in ∆s, in the plane and in space.
+const EDGE: [usize; 2] = [20, 10];
+
+/// Random starts; the evenest counts.
+const STARTS: u64 = 3;
+
+/// Evaluations after which it is looked at, and what counts as settled.
+const PATIENCE: usize = 1000;
+const SETTLED: f64 = 1e-3;
+
+/// A packing's error is at most so many of the floor's.
+const TIMES: f64 = 2.0;
+
+/// Bodies: a disc and a turned square of 9 ∆s, a ball of 6.
+const BODIES: [(&str, usize, &str); 3] = [
+    (
+        "disc",
+        2,
+        "shape = { circle = { center = [0.0, 0.0], radius = 4.5 } }",
+    ),
+    (
+        "square",
+        2,
+        "shape = { polygon = { points = [[-4.5, -4.5], [4.5, -4.5], [4.5, 4.5], [-4.5, 4.5]] } }\nrotate_degrees = 20.0",
+    ),
+    (
+        "ball",
+        3,
+        "shape = { sphere = { center = [0.0, 0.0, 0.0], radius = 3.0 } }",
+    ),
+];
+
+const ABOUT: &str = "\
+The floor: particles at random places of a periodic box, of 20 ∆s in the plane and 10 in space, settle by the energy of background pressure and
+repulsion (L-BFGS, to a residual of 10⁻³), and what is then max |Γ − Γ₀|, Γ₀ of the lattice; the evenest of three starts. Beside it the same of packings, a disc and a
+turned square of 9 ∆s and a ball of 6; the bar is twice the floor. The lattice's own bias, Γ₀ − 1, is no packing's: the report has errors against 1
+(`density.linf`) and against Γ₀ (`density.linf_lattice`).
+
+";
+
+const HEAD: &str = "\
+| body | kernel | h/∆s | Γ₀ − 1 | floor | max abs(Γ − Γ₀) | over the floor | max abs(Γ − 1) | closest pair / ∆s | evaluations | |
+|---|---|---|---|---|---|---|---|---|---|---|
+";
+
+pub(super) fn section(bench: &Bench, is_quick: bool) -> Result<Section, String> {
+    let mut table = ShownTable::new(HEAD);
+    let mut missed = Vec::new();
+    for (name, dimension, shape) in BODIES {
+        let hs: &[f64] = if dimension == 2 { &PLANE } else { &SPACE };
+        for kernel in KernelKind::ALL {
+            for &h in hs {
+                if is_quick && (h != QUICK || dimension == 3) {
+                    continue;
+                }
+                let floor = bench.once(&format!("floor {dimension} {kernel} {h}"), || {
+                    Ok(if dimension == 2 {
+                        floor::<2>(kernel, h)
+                    } else {
+                        floor::<3>(kernel, h)
+                    })
+                })?;
+                let scene = parsed(&format!(
+                    "spacing = 1.0\n[domain]\nmargin = 8.0\n[[body]]\nname = \"{name}\"\n{shape}\n[packing]\nkernel = \"{kernel}\"\nh_over_spacing = {h:?}\n"
+                ))?;
+                let found = bench.packed(&scene, Figures::of)?;
+                let over = found.linf_lattice / floor;
+                let verdict = match (found.is_right, over <= TIMES) {
+                    (true, true) => "holds",
+                    (false, _) => "**not right**",
+                    (true, false) => "**missed**",
+                };
+                if verdict != "holds" {
+                    missed.push(format!("{name} {kernel} {h}"));
+                }
+                table.push(&format!(
+                    "| {name} | {kernel} | {h} | {:+.2} % | {:.2} % | {:.2} % | {over:.2} | {:.2} % | {:.2} | {} | {verdict} |\n",
+                    100.0 * (Lattice::auto(dimension, kernel, h).gamma(kernel, h) - 1.0),
+                    100.0 * floor,
+                    100.0 * found.linf_lattice,
+                    100.0 * found.linf,
+                    found.closest_pair,
+                    found.evaluations,
+                ));
+            }
+        }
+    }
+    Ok(Section {
+        text: format!("{ABOUT}{}", table.into_text()),
+        missed,
+    })
+}
+
+/// max |Γ − Γ₀| of the evenest start.
+fn floor<const D: usize>(kernel: KernelKind, h: f64) -> f64 {
+    (0..STARTS)
+        .into_par_iter()
+        .map(|start| settled::<D>(kernel, h, start))
+        .reduce(|| f64::INFINITY, f64::min)
+}
+
+/// max |Γ − Γ₀| of random particles once they have settled.
+fn settled<const D: usize>(kernel: KernelKind, h: f64, start: u64) -> f64 {
+    let edge = EDGE[D - 2];
+    let domain = Domain::new([0.0; D], [edge as f64; D]).with_periodic([true; D]);
+    let mut random = SplitMix64::new(start);
+    let mut particles = Particles::new(Sizes::uniform(1.0, h));
+    for _ in 0..edge.pow(D as u32) {
+        let place = std::array::from_fn(|_| edge as f64 * random.unit());
+        particles.push(place, Kind::Free, 1.0, None);
+    }
+    let repulsion = Repulsion::new(1.0, Repulsion::STRENGTH);
+    let forces = Forces::new(&domain, kernel, h, 0.3, repulsion);
+    let reach = kernel.support_over_h() * h;
+    let mut energy = Energy::new(&mut particles, &[], forces, reach);
+    let mut minimiser = Lbfgs::default();
+    while energy.residual() > SETTLED && energy.evaluations() < PATIENCE {
+        if minimiser.step(&mut energy) == Step::Stuck {
+            break;
+        }
+    }
+    drop(energy);
+    let mut forces = Forces::new(&domain, kernel, h, 0.0, Repulsion::none());
+    forces.evaluate(&particles);
+    let gamma = Lattice::auto(D, kernel, h).gamma(kernel, h);
+    (0..particles.len())
+        .map(|i| (forces.gamma(i) - gamma).abs())
+        .fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Random particles settle less evenly than a lattice, and more evenly than they began.
+    #[test]
+    fn what_settles_is_uneven_by_some_per_cent() {
+        let floor = settled::<2>(KernelKind::WendlandC2, 1.3, 0);
+        assert!((0.002..0.2).contains(&floor), "{floor}");
+    }
+}

@@ -1,0 +1,103 @@
+//! What should not matter to a packing, and how near it comes to what its kernel leaves without a body.
+
+mod draws;
+mod floors;
+
+use serde::{Deserialize, Serialize};
+use sphpack::{Outcome, Scene};
+
+use crate::arguments::Arguments;
+use crate::bench::Bench;
+use crate::workspace::{root, write};
+
+/// What to run.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Settings {
+    /// A few packings, in seconds.
+    quick: bool,
+    /// Write docs/steady.md.
+    write: bool,
+}
+
+impl Settings {
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &["steady", "--quick", "--write"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        let settings = Self {
+            quick: arguments.has("--quick"),
+            write: arguments.has("--write"),
+        };
+        if settings.quick && settings.write {
+            return Err("--write needs every row: leave --quick out".to_owned());
+        }
+        Ok(settings)
+    }
+
+    /// What CI runs.
+    pub(crate) fn quick() -> Self {
+        Self {
+            quick: true,
+            write: false,
+        }
+    }
+}
+
+/// A table with what is to be said of it, and what missed its bar.
+struct Section {
+    text: String,
+    missed: Vec<String>,
+}
+
+/// Runs both sections; fails where a bar is missed.
+pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+    let bench = Bench::open(&[file!(), draws::SOURCE, floors::SOURCE])?;
+    let draws = draws::section(&bench, settings.quick)?;
+    let floors = floors::section(&bench, settings.quick)?;
+    if settings.write {
+        let text = format!(
+            "# What should not matter, and what a kernel leaves\n\n\
+             The balanced method with its defaults. Regenerate with `cargo xtask stability steady --write`.\n\n\
+             ## Where the lattice lies, which way, the seed, the units\n\n{}\n\
+             ## Every kernel at every h/∆s\n\n{}",
+            draws.text, floors.text
+        );
+        write("docs/steady.md", &text)?;
+    }
+    let missed = [draws.missed, floors.missed].concat();
+    if missed.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("missed: {}", missed.join("; ")))
+    }
+}
+
+/// What is measured of a packing.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct Figures {
+    /// It came to rest, and its audit found nothing.
+    is_right: bool,
+    linf: f64,
+    /// Against the lattice's own Γ₀.
+    linf_lattice: f64,
+    closest_pair: f64,
+    evaluations: usize,
+}
+
+impl Figures {
+    fn of(outcome: &Outcome) -> Self {
+        let report = &outcome.report;
+        Self {
+            is_right: report.converged && report.audit.passed,
+            linf: report.density.linf,
+            linf_lattice: report.density.linf_lattice,
+            closest_pair: report.closest_pair_over_spacing,
+            evaluations: report.force_evaluations,
+        }
+    }
+}
+
+/// A scene that is written here.
+fn parsed(text: &str) -> Result<Scene, String> {
+    Scene::parse(text, root().join("scenes/steady.toml")).map_err(|error| error.to_string())
+}
