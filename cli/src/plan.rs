@@ -27,6 +27,8 @@ pub struct Plan {
     pub read: Vec<ReadBody>,
     /// Particles, memory and time.
     pub estimate: Estimate,
+    /// Particles that files are to have.
+    pub written: f64,
     /// Evaluations until particles are at rest, in the middle of what scenes take.
     pub evaluations: f64,
     /// What was picked for the method "auto".
@@ -56,6 +58,8 @@ pub(crate) struct Prepared<const D: usize> {
     pub(crate) cut: Vec<String>,
     /// What the bodies' files hold.
     pub(crate) read: Vec<ReadBody>,
+    /// Particles that files are to have.
+    pub(crate) written: f64,
     /// Seconds spent on building the bodies.
     pub(crate) seconds: f64,
 }
@@ -63,11 +67,39 @@ pub(crate) struct Prepared<const D: usize> {
 /// Particles are numbered with 32 bits.
 const MAX_PARTICLES: f64 = 4e9;
 
-/// Bytes of a particle in a table of its own, beside that of all, and where a file is read again: its text or bytes
-/// and its columns, three words among them. Peaks of files of all formats, with frozen particles and without, took
-/// 315.
-const ROW_BYTES: f64 = 66.0;
+/// Bytes of a particle whose row is written, and compared piece by piece: its place in the table, and the numbers of its words; and
+/// what the allocator keeps of earlier arrays, of as many particles as in the last line. Peaks of 160,000 that never moved took
+/// 70 and 110 more than what is kept until then.
+const ROW_BYTES: f64 = 28.0;
+const HELD_BYTES: f64 = 60.0;
+const MOST_HELD: f64 = 1.4e6;
+
+/// And in a table of its own beside that of all, where there is a picture; and where a file is read again as a whole: its text or
+/// bytes and its columns, three words among them. Peaks of files of all formats, with frozen particles and without, took 315.
+const TABLE_BYTES: f64 = 66.0;
 const READ_BYTES: f64 = 315.0;
+
+/// Bytes of so many rows while they are written.
+fn row_bytes(written: f64) -> f64 {
+    ROW_BYTES * written + HELD_BYTES * written.min(MOST_HELD)
+}
+
+impl Plan {
+    /// The plan where a picture is drawn, or files are held when they are read again. Without the memory for that they are not read.
+    #[must_use]
+    pub(crate) fn with_files(mut self, has_picture: bool, are_held: bool) -> Self {
+        let table = if has_picture { TABLE_BYTES } else { 0.0 };
+        let last = self.estimate.kept_bytes + row_bytes(self.written) + table * self.written;
+        let held = last + READ_BYTES * self.written;
+        let most = if are_held && held <= self.allowed_bytes {
+            held
+        } else {
+            last
+        };
+        self.estimate.memory_bytes = self.estimate.memory_bytes.max(most);
+        self
+    }
+}
 
 /// What a scene will need; builds its bodies, places no particles.
 ///
@@ -102,6 +134,7 @@ where
         read: prepared.read,
         times_fewer,
         estimate,
+        written: prepared.written,
         evaluations,
         picked,
         building_seconds: prepared.seconds,
@@ -256,14 +289,7 @@ where
     } else if scene.includes(Kind::Frozen) {
         written += estimate.frozen;
     }
-    let writing = estimate.kept_bytes + ROW_BYTES * written;
-    let reading = writing + READ_BYTES * written;
-    // Files are not read again where there is no memory for it.
-    let last = if reading > allowed_bytes {
-        writing
-    } else {
-        reading
-    };
+    let last = estimate.kept_bytes + row_bytes(written);
     estimate.memory_bytes = (estimate.memory_bytes.max(last)).max(hopeless.unwrap_or(0.0));
     let particles = estimate.particles + estimate.frozen;
     if !particles.is_finite() || !estimate.memory_bytes.is_finite() {
@@ -304,6 +330,7 @@ where
             repairs,
             cut,
             read,
+            written,
             seconds: begin.elapsed().as_secs_f64(),
         },
         estimate,

@@ -94,6 +94,7 @@ where
         read,
         repairs,
         cut,
+        written: _,
         seconds: built,
     } = prepared;
     let scene = &resolved;

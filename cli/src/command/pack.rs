@@ -39,7 +39,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let files = Files::new(arguments, &scene, opened.dimension)?;
     threads::start(arguments.threads)?;
     if arguments.dry_run {
-        return dry_run(opened, arguments.quiet);
+        return dry_run(opened, &files, arguments.quiet);
     }
     if let Some(picked) = opened.picked.as_ref().filter(|_| !arguments.quiet) {
         // A step like those that follow, no message: a refusal is one message.
@@ -163,8 +163,9 @@ fn positive(name: &str, value: f64) -> Result<(), Error> {
     )))
 }
 
-fn dry_run(opened: Opened, is_quiet: bool) -> Result<u8, Error> {
-    let plan = planned_of(opened, available_bytes())?;
+fn dry_run(opened: Opened, files: &Files, is_quiet: bool) -> Result<u8, Error> {
+    let are_held = (files.particles.iter()).any(|(_, format)| !format.is_read_by_column());
+    let plan = planned_of(opened, available_bytes())?.with_files(files.picture.is_some(), are_held);
     if !is_quiet {
         for (body, repairs) in &plan.repairs {
             warn(body, repairs);

@@ -41,6 +41,11 @@ pub(super) fn ending(path: &Path) -> String {
 }
 
 impl ParticleFormat {
+    /// Whether it is read column by column, a piece at a time, so that nobody need hold all of it.
+    pub(crate) fn is_read_by_column(self) -> bool {
+        matches!(self, Self::Vtu | Self::Vtp)
+    }
+
     /// The format that a path's ending names.
     ///
     /// # Errors

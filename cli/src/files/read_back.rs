@@ -20,7 +20,7 @@ const BYTES_PER_BYTE: f64 = 3.0;
 pub(crate) fn compare(table: &Table, format: ParticleFormat, path: &Path) -> Result<bool, String> {
     let unreadable = |why: &dyn ToString| format!("it cannot be read again ({})", why.to_string());
     let mut found = Found::of(table);
-    if matches!(format, ParticleFormat::Vtu | ParticleFormat::Vtp) {
+    if format.is_read_by_column() {
         let mut file = fs::File::open(path).map_err(|e| unreadable(&e))?;
         let mut take = |name: &str, piece: &[f64]| found.piece(name, piece);
         let names = visit(&mut file, &mut take).map_err(|e| unreadable(&e))?;

@@ -123,7 +123,7 @@ impl Agitated {
         work: Work {
             evaluations: 5000.0,
             times_plain: 1.5,
-            bytes: [150.0, 500.0],
+            bytes: [220.0, 500.0],
             ..Work::PLAIN
         },
         ..MethodInfo::USUAL
