@@ -68,7 +68,7 @@ const HEAD: &str = "\
 
 pub(super) fn section(bench: &Bench, is_quick: bool) -> Result<Section, String> {
     let mut table = ShownTable::new(HEAD);
-    let mut missed = Vec::new();
+    let mut rows = Vec::new();
     for (name, dimension, shape) in BODIES {
         let hs: &[f64] = if dimension == 2 { &PLANE } else { &SPACE };
         for kernel in KernelKind::ALL {
@@ -93,9 +93,7 @@ pub(super) fn section(bench: &Bench, is_quick: bool) -> Result<Section, String> 
                     (false, _) => "**not right**",
                     (true, false) => "**missed**",
                 };
-                if verdict != "holds" {
-                    missed.push(format!("{name} {kernel} {h}"));
-                }
+                rows.push((format!("{name} {kernel} {h}"), verdict == "holds"));
                 table.push(&format!(
                     "| {name} | {kernel} | {h} | {:+.2} % | {:.2} % | {:.2} % | {over:.2} | {:.2} % | {:.2} | {} | {verdict} |\n",
                     100.0 * (Lattice::auto(dimension, kernel, h).gamma(kernel, h) - 1.0),
@@ -110,7 +108,7 @@ pub(super) fn section(bench: &Bench, is_quick: bool) -> Result<Section, String> 
     }
     Ok(Section {
         text: format!("{ABOUT}{}", table.into_text()),
-        missed,
+        rows,
     })
 }
 
