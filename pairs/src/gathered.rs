@@ -61,6 +61,14 @@ impl Gathered {
         list.weigh(weights, &mut self.slots);
     }
 
+    /// Room for `stride` fields of every slot, the padding slot's last, which must be zero: for whoever keeps the slots' particles
+    /// ([`CellList::sources`]) and fills it in parallel. What was written before is still there where the size is the same.
+    pub fn fields_mut(&mut self, stride: usize) -> &mut [f64] {
+        self.stride = stride;
+        self.more.resize(stride * self.slots.len(), 0.0);
+        &mut self.more
+    }
+
     /// More fields, each with one number per particle; images have their particle's.
     ///
     /// # Panics

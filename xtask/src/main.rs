@@ -17,6 +17,7 @@ mod dial;
 mod draw;
 mod drawing;
 mod figures;
+mod flow;
 mod front;
 mod fuzz;
 mod gaps;

@@ -5,8 +5,8 @@ use crate::scene_fuzz::{self, estimates, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
-    balanced, bodies, ci, compare, corpora, draw, front, fuzz, lattices, reliability, reproduction,
-    round_trip, speed, stability, steady, tidy, variable,
+    balanced, bodies, ci, compare, corpora, draw, flow, front, fuzz, lattices, reliability,
+    reproduction, round_trip, speed, stability, steady, tidy, variable,
 };
 
 /// What is left to do once the arguments are read.
@@ -24,7 +24,7 @@ pub(crate) struct Task {
 }
 
 /// In the order of the usage; of one name the forms with flags come first.
-pub(crate) const TASKS: [Task; 23] = [
+pub(crate) const TASKS: [Task; 24] = [
     Task {
         name: "ci",
         known: &[],
@@ -262,6 +262,18 @@ pub(crate) const TASKS: [Task; 23] = [
         read: |given| {
             let selection = Selection::of(given)?;
             Ok(Box::new(move || speed::run(&selection)))
+        },
+    },
+    Task {
+        name: "flow",
+        known: flow::Settings::KNOWN,
+        about: &[
+            "flows from packings: vortices, a drop, a tank, each against its bars, and what the packing changes; one case",
+            "or all; runs are kept; --quick has the small ones, --write also writes docs/flow.md",
+        ],
+        read: |given| {
+            let settings = flow::Settings::of(given)?;
+            Ok(Box::new(move || flow::run(&settings)))
         },
     },
     Task {

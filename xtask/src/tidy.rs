@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 mod rings;
 
 /// Which of our crates each crate may depend on. One direction only: see ARCHITECTURE.md.
-const GRAPH: [(&str, &[&str]); 8] = [
+const GRAPH: [(&str, &[&str]); 9] = [
     ("kernels", &[]),
     ("neighbors", &[]),
     ("pairs", &["kernels", "neighbors"]),
     ("geometry", &["neighbors"]),
     ("packing", &["kernels", "neighbors", "pairs", "geometry"]),
     ("separation", &["geometry", "neighbors"]),
+    ("flow", &["kernels", "neighbors", "pairs"]),
     (
         "cli",
         &[
@@ -33,6 +34,7 @@ const GRAPH: [(&str, &[&str]); 8] = [
             "geometry",
             "packing",
             "separation",
+            "flow",
             "cli",
         ],
     ),

@@ -1,0 +1,80 @@
+//! Flows from packings: the schemes against what is known, and what a packing changes.
+
+mod couette;
+mod drop;
+mod finding;
+mod page;
+mod progress;
+mod run;
+mod speed;
+mod start;
+mod tank;
+mod vortices;
+
+use crate::arguments::Arguments;
+use finding::Findings;
+use run::Runs;
+
+/// The cases, as they are asked for.
+const CASES: &str = "taylor-green|couette|drop|tank|speed";
+
+/// What to run.
+#[derive(Debug)]
+pub(crate) struct Settings {
+    quick: bool,
+    write: bool,
+    case: Option<String>,
+}
+
+impl Settings {
+    /// The arguments that say it.
+    pub(crate) const KNOWN: &[&str] = &[CASES, "--quick", "--write"];
+
+    pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
+        let settings = Self {
+            quick: arguments.has("--quick"),
+            write: arguments.has("--write"),
+            case: arguments.text(CASES),
+        };
+        if settings.write && (settings.case.is_some() || settings.quick) {
+            return Err("--write needs every case in full: leave all else out".to_owned());
+        }
+        Ok(settings)
+    }
+}
+
+/// Runs the cases that are asked for. What was run before by the same code is not run again. Fails where a bar is missed that
+/// has no reason.
+pub(crate) fn run(settings: &Settings) -> Result<(), String> {
+    let runs = Runs::open()?;
+    let mut all = Vec::new();
+    let mut missed = Vec::new();
+    for case in CASES.split('|') {
+        if settings.case.as_ref().is_some_and(|asked| asked != case) {
+            continue;
+        }
+        let found = match case {
+            "taylor-green" => vortices::find(&runs, settings.quick)?,
+            "couette" => couette::find(&runs, settings.quick)?,
+            "drop" => drop::find(&runs, settings.quick)?,
+            "tank" => tank::find(&runs, settings.quick)?,
+            // Seconds are this machine's, and are not kept.
+            _ => speed::find()?,
+        };
+        print!("{}", page::tables(&found));
+        let without_reason = |row: &&finding::Row| !row.holds() && row.reason.is_empty();
+        missed.extend((found.rows.iter().filter(without_reason)).map(|row| row.what.clone()));
+        all.push((case, found));
+    }
+    if settings.write {
+        page::write(&all)?;
+    }
+    if missed.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("missed: {}", missed.join("; ")))
+    }
+}
+
+/// A case's name with what it has found.
+type Found = (&'static str, Findings);
