@@ -94,7 +94,7 @@ impl Ppa {
         work: Work {
             evaluations: 2200.0,
             times_plain: 1.25,
-            bytes: [120.0, 180.0],
+            bytes: [80.0, 180.0],
             placing: CHOOSING,
             ..Work::PLAIN
         },
