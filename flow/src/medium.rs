@@ -13,8 +13,7 @@ pub struct Medium<const D: usize> {
     pub force: [f64; D],
 }
 
-/// The Courant number that pressure waves get. The papers have 0.25; up to 0.7 changes a Taylor–Green vortex by a tenth of its
-/// own error.
+/// The Courant number that pressure waves get. The papers have 0.25.
 pub const COURANT: f64 = 0.4;
 
 impl<const D: usize> Medium<D> {

@@ -83,11 +83,12 @@ fn options() -> Vec<(&'static str, HybridOptions, f64)> {
 
 /// Both tables.
 pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
+    let bench = Bench::open(&[file!()])?;
     let mut table = ShownTable::new(HEAD);
     for (name, spacing) in SCENES {
         let mut plain = None;
         for (words, options, tolerance) in options() {
-            let Some(row) = row(name, spacing, options, tolerance, selection)? else {
+            let Some(row) = row(&bench, name, spacing, options, tolerance, selection)? else {
                 continue;
             };
             let most = *plain.get_or_insert([row.iterations as f64, row.work()]);
@@ -110,7 +111,7 @@ pub(crate) fn tables(selection: &Selection) -> Result<String, String> {
                 capture: [0.5, late],
                 ..HybridOptions::default()
             };
-            let Some(row) = row(name, spacing, options, 1e-4, selection)? else {
+            let Some(row) = row(&bench, name, spacing, options, 1e-4, selection)? else {
                 continue;
             };
             captures.push(&format!(
@@ -173,6 +174,7 @@ fn moving(packing: &Packing, reach: f64) -> usize {
 }
 
 fn row(
+    bench: &Bench,
     name: &str,
     spacing: f64,
     options: HybridOptions,
@@ -192,7 +194,6 @@ fn row(
     scene.quality.kernel = Some(KernelKind::Quintic);
     scene.quality.h_over_spacing = Some(1.2);
     let reach = scene.packing.hybrid.moving.unwrap_or(f64::INFINITY) * spacing;
-    let bench = Bench::open(&[file!()])?;
     bench
         .packed(&scene, |outcome| Row::of(outcome, reach))
         .map(Some)

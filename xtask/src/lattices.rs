@@ -113,6 +113,7 @@ pub(crate) fn run(selection: &Selection) -> Result<(), String> {
 }
 
 fn of_dimension(dimension: usize, selection: &Selection) -> Result<(String, Chart), String> {
+    let bench = Bench::open(&[file!()])?;
     let mut table = ShownTable::new(
         "| kernel | h/∆s | lattice | stability | variation | closest pair / ∆s | evaluations |\n|---|---|---|---|---|---|---|\n",
     );
@@ -127,7 +128,7 @@ fn of_dimension(dimension: usize, selection: &Selection) -> Result<(String, Char
                 .into_iter()
                 .filter(|l| l.dimension() == dimension)
             {
-                let trial = attempt(lattice, kernel, h, selection)?;
+                let trial = attempt(&bench, lattice, kernel, h, selection)?;
                 let is_taken = Lattice::auto(dimension, kernel, h) == lattice;
                 if is_taken {
                     points.push([h, 100.0 * trial.variation]);
@@ -163,6 +164,7 @@ fn of_dimension(dimension: usize, selection: &Selection) -> Result<(String, Char
 }
 
 fn attempt(
+    bench: &Bench,
     lattice: Lattice,
     kernel: KernelKind,
     h: f64,
@@ -175,7 +177,6 @@ fn attempt(
         closest: f64::INFINITY,
         evaluations: 0,
     };
-    let bench = Bench::open(&[file!()])?;
     for (name, spacing) in SCENES[lattice.dimension() - 2] {
         let Some(mut scene) = load(name, selection)? else {
             continue;

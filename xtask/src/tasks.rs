@@ -135,7 +135,7 @@ pub(crate) const TASKS: [Task; 24] = [
             "the papers' figures of packings, published beside ours, into target/reproduction (index.html, summary.json,",
             "rows.csv); goes on where it was stopped;",
             "a number (docs/papers.md) and --only name one paper and one figure (fig13),",
-            "--quick leaves out the long runs,",
+            "--quick leaves out the long runs, --fine adds the longest (rabbits at the papers' ∆s),",
             "--data names the folder with bunny.stl (default: data),",
             "--write also writes docs/reproduction.md",
         ],

@@ -365,3 +365,55 @@ fn archives_beyond_32_bits() {
         agree(&read_back(ParticleFormat::Npz, &bytes).unwrap(), &table).unwrap();
     }
 }
+
+/// More rows than are read at a time: 786,432 bytes of points, of numbers, and of the text before them.
+#[test]
+fn files_of_many_pieces_are_compared_to_the_end() {
+    const ROWS: u32 = 100_001;
+    let all = || 0..ROWS;
+    let table = Table {
+        dimension: 3,
+        id: all().collect(),
+        position: all()
+            .map(|i| [f64::from(i), 0.5 * f64::from(i), 1.0])
+            .collect(),
+        kind: vec![Kind::Free; ROWS as usize],
+        side: vec![Side::Fluid; ROWS as usize],
+        body: vec![None; ROWS as usize],
+        volume: all().map(|i| 1.0 + f64::from(i)).collect(),
+        mass: vec![1.0; ROWS as usize],
+        gamma: vec![1.0; ROWS as usize],
+        residual: vec![0.0; ROWS as usize],
+        ..Table::default()
+    };
+    let format = ParticleFormat::Vtu;
+    let bytes = written(format, &table);
+    assert_eq!(compared(&table, format, &bytes), Ok(true));
+    let mark = b"<AppendedData";
+    let at = (bytes.windows(mark.len()).position(|window| window == mark)).unwrap();
+    // The mark itself lies across the end of a piece.
+    let padding = vec![b' '; (24 << 15) - 5 - at];
+    let padded = [&bytes[..at], &padding, &bytes[at..]].concat();
+    assert_eq!(compared(&table, format, &padded), Ok(true));
+    type Change = fn(&mut Table, usize);
+    let changes: [(&str, Change); 3] = [
+        ("z", |table, last| table.position[last][2] = 2.0),
+        ("volume", |table, last| table.volume[last] = 0.0),
+        ("kind", |table, last| table.kind[last] = Kind::Fixed),
+    ];
+    for (name, change) in changes {
+        let mut other = table.clone();
+        change(&mut other, ROWS as usize - 1);
+        let found = compared(&other, format, &bytes).unwrap_err();
+        assert!(
+            found.contains(&format!("{name} of particle 100000")),
+            "{found}"
+        );
+    }
+    let cut = &bytes[..bytes.len() / 2];
+    assert!(
+        compared(&table, format, cut)
+            .unwrap_err()
+            .contains("cut off")
+    );
+}

@@ -1,10 +1,8 @@
 //! docs/flow.md.
 
-use std::fs;
-
 use super::Found;
 use super::finding::{Change, Findings, Row};
-use crate::workspace::root;
+use crate::workspace;
 
 const ROWS: &str = "\
 | | published | bar | ours | |
@@ -70,19 +68,14 @@ fn about(case: &str) -> &'static str {
 
 /// Writes the page and its pictures.
 pub(super) fn write(all: &[Found]) -> Result<(), String> {
-    let docs = root().join("docs");
-    let save = |name: &str, text: &str| {
-        let path = docs.join(name);
-        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
-    };
     let mut text = ABOUT.to_owned();
     for (case, found) in all {
         text += about(case);
         text += &tables(found);
         for (name, chart) in &found.charts {
-            save(&format!("{name}.svg"), &chart.svg())?;
+            workspace::write(&format!("docs/{name}.svg"), &chart.svg())?;
             text += &format!("![{}]({name}.svg)\n\n", chart.title);
         }
     }
-    save("flow.md", &format!("{}\n", text.trim_end()))
+    workspace::write("docs/flow.md", &format!("{}\n", text.trim_end()))
 }

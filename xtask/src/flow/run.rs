@@ -1,7 +1,6 @@
 //! What one run of a flow gives, and runs that are kept.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -67,15 +66,7 @@ impl Runs {
         of: &str,
         make: impl FnOnce() -> Result<Run, String>,
     ) -> Result<Run, String> {
-        let path = self.kept.path(of, "json");
-        let known = fs::read(&path).ok();
-        if let Some(known) = known.and_then(|bytes| serde_json::from_slice(&bytes).ok()) {
-            return Ok(known);
-        }
-        let run = make().map_err(|error| format!("{of}: {error}"))?;
-        let fail = |error: String| format!("{}: {error}", path.display());
-        let bytes = serde_json::to_vec(&run).map_err(|error| fail(error.to_string()))?;
-        fs::write(&path, bytes).map_err(|error| fail(error.to_string()))?;
-        Ok(run)
+        let named = || make().map_err(|error| format!("{of}: {error}"));
+        self.kept.once(of, named)
     }
 }

@@ -43,7 +43,7 @@ pub(crate) struct Settings {
     selection: Selection,
     /// The one paper.
     paper: Option<String>,
-    /// Rows of an hour each, too.
+    /// The longest rows, too.
     fine: bool,
 }
 

@@ -4,16 +4,13 @@ use std::fmt::Write as _;
 
 use rayon::prelude::*;
 use sphpack_kernels::KernelKind;
-use sphpack_neighbors::random::SplitMix64;
-use sphpack_neighbors::{Domain, point};
-use sphpack_packing::forces::Forces;
-use sphpack_packing::minimise::{Energy, Lbfgs, Minimiser, Step};
-use sphpack_packing::{Kind, Particles, Sizes};
+use sphpack_neighbors::point;
 use sphpack_pairs::Repulsion;
 
 use super::Section;
 use super::heat::{Panel, svg};
 use super::ink::PAIRED;
+use crate::random_start::RandomStart;
 
 /// Edge of the periodic square, in ∆s; it holds its square of particles.
 const EDGE: usize = 20;
@@ -146,29 +143,20 @@ pub(super) fn section(is_quick: bool) -> Result<Section, String> {
 
 /// How random particles settle.
 fn settled(kernel: KernelKind, h: f64, is_repelled: bool, start: u64) -> Settled {
-    let edge = EDGE as f64;
-    let domain = Domain::new([0.0; 2], [edge; 2]).with_periodic([true; 2]);
-    let mut random = SplitMix64::new(start);
-    let mut particles = Particles::new(Sizes::uniform(1.0, h));
-    for _ in 0..EDGE * EDGE {
-        let place = [edge * random.unit(), edge * random.unit()];
-        particles.push(place, Kind::Free, 1.0, None);
-    }
-    let repulsion = if is_repelled {
-        Repulsion::new(1.0, Repulsion::STRENGTH)
-    } else {
-        Repulsion::none()
+    let start = RandomStart {
+        kernel,
+        h_over_spacing: h,
+        edge: EDGE,
+        repulsion: if is_repelled {
+            Repulsion::new(1.0, Repulsion::STRENGTH)
+        } else {
+            Repulsion::none()
+        },
+        settled: SETTLED,
+        patience: PATIENCE,
+        seed: start,
     };
-    let forces = Forces::new(&domain, kernel, h, 0.3, repulsion);
-    let reach = kernel.support_over_h() * h;
-    let mut energy = Energy::new(&mut particles, &[], forces, reach);
-    let mut minimiser = Lbfgs::default();
-    while energy.residual() > SETTLED && energy.evaluations() < PATIENCE {
-        if minimiser.step(&mut energy) == Step::Stuck {
-            break;
-        }
-    }
-    drop(energy);
+    let (domain, particles) = start.run::<2>();
     let places = &particles.position;
     let nearest: Vec<f64> = (0..places.len())
         .map(|i| {

@@ -2,15 +2,13 @@
 
 use rayon::prelude::*;
 use sphpack_kernels::KernelKind;
-use sphpack_neighbors::Domain;
-use sphpack_neighbors::random::SplitMix64;
+use sphpack_packing::Lattice;
 use sphpack_packing::forces::Forces;
-use sphpack_packing::minimise::{Energy, Lbfgs, Minimiser, Step};
-use sphpack_packing::{Kind, Lattice, Particles, Sizes};
 use sphpack_pairs::Repulsion;
 
 use super::{Figures, Section, parsed};
 use crate::bench::Bench;
+use crate::random_start::RandomStart;
 use crate::shown_table::ShownTable;
 
 /// This file measures.
@@ -122,25 +120,16 @@ fn floor<const D: usize>(kernel: KernelKind, h: f64) -> f64 {
 
 /// max |Γ − Γ₀| of random particles once they have settled.
 fn settled<const D: usize>(kernel: KernelKind, h: f64, start: u64) -> f64 {
-    let edge = EDGE[D - 2];
-    let domain = Domain::new([0.0; D], [edge as f64; D]).with_periodic([true; D]);
-    let mut random = SplitMix64::new(start);
-    let mut particles = Particles::new(Sizes::uniform(1.0, h));
-    for _ in 0..edge.pow(D as u32) {
-        let place = std::array::from_fn(|_| edge as f64 * random.unit());
-        particles.push(place, Kind::Free, 1.0, None);
-    }
-    let repulsion = Repulsion::new(1.0, Repulsion::STRENGTH);
-    let forces = Forces::new(&domain, kernel, h, 0.3, repulsion);
-    let reach = kernel.support_over_h() * h;
-    let mut energy = Energy::new(&mut particles, &[], forces, reach);
-    let mut minimiser = Lbfgs::default();
-    while energy.residual() > SETTLED && energy.evaluations() < PATIENCE {
-        if minimiser.step(&mut energy) == Step::Stuck {
-            break;
-        }
-    }
-    drop(energy);
+    let start = RandomStart {
+        kernel,
+        h_over_spacing: h,
+        edge: EDGE[D - 2],
+        repulsion: Repulsion::new(1.0, Repulsion::STRENGTH),
+        settled: SETTLED,
+        patience: PATIENCE,
+        seed: start,
+    };
+    let (domain, particles) = start.run::<D>();
     let mut forces = Forces::new(&domain, kernel, h, 0.0, Repulsion::none());
     forces.evaluate(&particles);
     let gamma = Lattice::auto(D, kernel, h).gamma(kernel, h);
