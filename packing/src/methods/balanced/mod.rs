@@ -7,6 +7,7 @@ mod graded;
 pub(crate) mod parts;
 mod places;
 mod pockets;
+mod remembered;
 pub(crate) mod rim;
 mod round;
 mod sampled;

@@ -7,11 +7,14 @@
 //! others, in a box of its own, until some do. Parts that are even with the usual counts keep them, and every bit.
 //! The idea is this project's own; `cargo xtask bodies` (docs/bodies.md) and `cargo xtask stability map parts` show what comes of it.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use sphpack_geometry::{Closest, Surface};
 use sphpack_neighbors::{Domain, point};
 
 use super::Balanced;
+use super::remembered::Remembered;
 use super::sampled::Sampled;
 use super::shares::directly_inside;
 use crate::minimise::Settling;
@@ -202,7 +205,8 @@ fn is_small<const D: usize>(problem: &Problem<D>, sampled: &Sampled<D>, part: us
 /// A part in a box of its own: of whole cells of the problem's lattice, so that the same sites are in it. With others a part that was
 /// even alone was not among its neighbours.
 fn alone<const D: usize>(problem: &Problem<D>, part: usize) -> Problem<D> {
-    let body = problem.bodies[part].clone();
+    let mut body = problem.bodies[part].clone();
+    body.surface = Arc::new(Remembered::new(body.surface));
     let mut bounds = body
         .surface
         .bounds()
