@@ -96,6 +96,11 @@ pub enum MendedBody {
 }
 
 impl Examined {
+    /// The findings as JSON text, a line break at its end.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).map_or_else(|_| String::new(), |text| text + "\n")
+    }
+
     /// Reads a body and examines it; and the mended body, where it can be packed.
     ///
     /// # Errors

@@ -76,6 +76,7 @@ mod beyond;
 mod body_file;
 mod checkpoint;
 mod cloud;
+mod cloud_report;
 #[cfg(feature = "command")]
 pub mod command;
 mod content;
@@ -110,6 +111,7 @@ mod units;
 pub use audit::{Audit, Audited, Unsound};
 pub use body_file::{ReadBody, body_format};
 pub use cloud::{Cloud, CloudQuality};
+pub use cloud_report::{CloudCounts, CloudReport};
 pub use error::{BAD_INPUT, DONE, Error, FAILED, INTERRUPTED, NOT_CONVERGED};
 pub use examined::{Examine, Examined, Mend, MendedBody, Thin};
 pub use findings::{DefectFound, LoopFound, MeshFindings, OutlineFindings};

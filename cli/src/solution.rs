@@ -29,6 +29,32 @@ pub enum Packing {
     Space(Solution<3>),
 }
 
+impl<const D: usize> Solution<D> {
+    fn forget_columns(&mut self) {
+        let particles = &mut self.packed.particles;
+        particles.id = Vec::new();
+        particles.position = Vec::new();
+        particles.kind = Vec::new();
+        particles.volume = Vec::new();
+        particles.body = Vec::new();
+        self.labels.side = Vec::new();
+        self.labels.body = Vec::new();
+        self.keep = Vec::new();
+        self.fields.gamma = Vec::new();
+        self.fields.gradient = Vec::new();
+    }
+}
+
+impl Packing {
+    /// Gives back the memory of what the table holds too, some 80 bytes of a particle: nothing but the problem and the figures is left.
+    pub(crate) fn forget_columns(&mut self) {
+        match self {
+            Self::Plane(solution) => solution.forget_columns(),
+            Self::Space(solution) => solution.forget_columns(),
+        }
+    }
+}
+
 impl From<Solution<2>> for Packing {
     fn from(solution: Solution<2>) -> Self {
         Self::Plane(solution)

@@ -101,9 +101,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8, Error> {
         }
         written.push(visible(&path.display().to_string()));
     }
-    let json = serde_json::to_string_pretty(&examined)
-        .map_err(|e| Error::System(format!("the findings cannot be written as JSON: {e}")))?
-        + "\n";
+    let json = examined.to_json();
     if let Some(path) = &arguments.report {
         files.write(path, |to| to.write_all(json.as_bytes()))?;
         written.push(visible(&path.display().to_string()));

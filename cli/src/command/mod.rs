@@ -20,6 +20,7 @@ mod quality;
 mod summary;
 mod threads;
 
+use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
@@ -35,15 +36,21 @@ const LEAST_BYTES: u64 = 1 << 20;
 
 /// Runs the command with the process's arguments.
 pub fn main() -> ExitCode {
+    ExitCode::from(run(std::env::args_os()))
+}
+
+/// Runs the command with these arguments, the program's name first, and gives its exit status. Ctrl-C is the command's from then on, and
+/// may end the process: this is for a process that does nothing else.
+pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> u8 {
     if let Some(left) = address_space_left().filter(|&left| left < LEAST_BYTES) {
         let _ = writeln!(
             std::io::stderr(),
             "sphpack: the limit of address space (ulimit -v) leaves {} KiB of memory, too little for anything; raise it",
             left >> 10
         );
-        return ExitCode::from(FAILED);
+        return FAILED;
     }
-    let result = match Arguments::try_parse() {
+    let result = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => match arguments.command {
             Command::Pack(pack) => pack::run(&pack),
             Command::Check(check) => check::run(&check),
@@ -55,17 +62,17 @@ pub fn main() -> ExitCode {
             let words = answer.render().to_string();
             let lines: Vec<String> = words.lines().map(plain_text::message).collect();
             let _ = writeln!(std::io::stderr(), "{}", lines.join("\n"));
-            return ExitCode::from(BAD_INPUT);
+            return BAD_INPUT;
         }
         // Help and version are answers too, and no errors.
         Err(answer) => say(&answer.render().to_string()).map(|()| DONE),
     };
     match result {
-        Ok(status) => ExitCode::from(status),
+        Ok(status) => status,
         Err(error) => {
             let words = plain_text::message(&error.to_string());
             let _ = writeln!(std::io::stderr(), "sphpack: {words}");
-            ExitCode::from(error.status())
+            error.status()
         }
     }
 }

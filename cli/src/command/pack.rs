@@ -24,7 +24,6 @@ use crate::plan::{available_bytes, planned_of};
 use crate::report::peak_memory_bytes;
 use crate::run::{Options, Outcome, run_opened};
 use crate::scene::{Method, Scene};
-use crate::surroundings::surrounded;
 use crate::table::Table;
 
 /// The margin around a body without a scene, in ∆s.
@@ -295,13 +294,8 @@ impl Files {
         } else {
             std::mem::take(&mut outcome.table)
         };
-        let kinds = table.kind.clone();
-        let rows = table.kept(|i| scene.includes(kinds[i]));
-        drop(kinds);
-        let rows = match &scene.output.surroundings {
-            Some(box_around) => surrounded(rows, outcome, scene, box_around),
-            None => rows,
-        };
+        let rows = outcome.included(table, scene);
+        outcome.packing.forget_columns();
         let frozen = (rows.kind.iter().filter(|&&kind| kind == Kind::Frozen)).count();
         let (first, first_format) = &self.particles[0];
         let rescued = |error: Error| {

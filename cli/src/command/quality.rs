@@ -1,40 +1,16 @@
 //! `sphpack quality`.
 
-use serde::Serialize;
-
 use super::arguments::QualityArguments;
 use super::{say, threads};
 use crate::Error;
-use crate::audit::Audit;
-use crate::cloud::{Cloud, CloudQuality, H_OVER_SPACING};
+use crate::cloud::{Cloud, H_OVER_SPACING};
+use crate::cloud_report::CloudReport;
 use crate::error::{DONE, NOT_CONVERGED};
 use crate::picture::grouped;
 use crate::scene::kernel_by_name;
-use sphpack_packing::{DensityQuality, ResidualQuality};
 
 /// What a file's own smoothing length may come to; beyond, it is in other units, or something else.
 const USUAL_H_OVER_SPACING: std::ops::RangeInclusive<f64> = 0.5..=4.0;
-
-/// What `--json` prints.
-#[derive(Debug, Serialize)]
-struct Answer<'a> {
-    dimension: usize,
-    spacing: f64,
-    kernel: &'a str,
-    h_over_spacing: f64,
-    particles: Numbers,
-    density: DensityQuality,
-    residual: ResidualQuality,
-    audit: Audit,
-}
-
-#[derive(Debug, Serialize)]
-struct Numbers {
-    total: usize,
-    frozen: usize,
-    measured: usize,
-    left_out_near_edge: usize,
-}
 
 pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
     for (name, value) in [
@@ -56,34 +32,9 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
         .or(of_each)
         .filter(|ratio| USUAL_H_OVER_SPACING.contains(ratio));
     let h_over_spacing = (arguments.h_over_spacing).or(own).unwrap_or(H_OVER_SPACING);
-    let measured = cloud.measure(arguments.spacing, kernel, h_over_spacing)?;
-    let audit = Audit::of_cloud(&cloud, arguments.spacing, &measured);
-    let CloudQuality {
-        density,
-        residual,
-        measured,
-        left_out,
-        ..
-    } = measured;
-    let answer = Answer {
-        dimension: cloud.dimension,
-        spacing: arguments.spacing,
-        kernel: kernel.name(),
-        h_over_spacing,
-        particles: Numbers {
-            total: cloud.position.len(),
-            frozen: cloud.frozen_count(),
-            measured,
-            left_out_near_edge: left_out,
-        },
-        density,
-        residual,
-        audit,
-    };
+    let answer = cloud.report(arguments.spacing, kernel, h_over_spacing)?;
     if arguments.json {
-        let text = serde_json::to_string_pretty(&answer)
-            .map_err(|e| Error::System(format!("the figures cannot be written as JSON: {e}")))?;
-        say(&(text + "\n"))?;
+        say(&answer.to_json())?;
     } else {
         say(&words(&answer))?;
     }
@@ -94,8 +45,8 @@ pub(super) fn run(arguments: &QualityArguments) -> Result<u8, Error> {
     })
 }
 
-fn words(answer: &Answer<'_>) -> String {
-    let Answer {
+fn words(answer: &CloudReport) -> String {
+    let CloudReport {
         particles,
         density,
         residual,

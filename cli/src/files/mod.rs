@@ -38,6 +38,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use crate::Error;
+use crate::table::Table;
 
 pub(crate) use atomic::{AtomicFiles, replace};
 pub use columns::Columns;
@@ -55,6 +56,29 @@ pub use vtk_read::read_vtk;
 pub use vtp::write_vtp;
 pub use vtu::write_vtu;
 pub use vtu_read::read_vtu;
+
+/// Writes particles into a file whose ending says the format: whole or not at all, and read again to see that it holds what it
+/// should. `may_replace`: whether a file that exists may be replaced.
+///
+/// # Errors
+/// [`Error::Input`] for an ending that is none of [`PARTICLE_FORMATS`], and where there is a file that may not be replaced;
+/// [`Error::Write`].
+pub fn save(table: &Table, path: &Path, may_replace: bool) -> Result<(), Error> {
+    let format = ParticleFormat::of(path)?;
+    if !may_replace && path.exists() {
+        return Err(Error::input(
+            path,
+            "the file exists; give another name, or let it be replaced",
+        ));
+    }
+    let mut files = AtomicFiles::new(may_replace);
+    files.write_and_check(
+        path,
+        |to| format.write(table, to),
+        |written| compare(table, format, written).map(|_| ()),
+    )?;
+    files.finish()
+}
 
 /// The largest input that is read into memory, bytes.
 pub(crate) const MAX_INPUT: u64 = 8 << 30;

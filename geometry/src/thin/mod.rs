@@ -7,9 +7,10 @@ mod spread;
 mod tests;
 
 use crate::surface::{Closest, Surface};
-use crate::thickness::through;
+use crate::thickness::{Touching, through};
 use crate::{GeometryError, ParameterError};
-use shares::Shares;
+use rayon::prelude::*;
+use shares::{HARDLY, Shares};
 use sphpack_neighbors::point;
 
 /// Points at which the thickness of a body is probed before it is taken as thick: this many per point of its surface,
@@ -136,6 +137,12 @@ pub fn sample_thin<const D: usize>(
             return as_if_thick(surface, count);
         }
     }
+    // The inset of a sheet a spacing thick is two sides in one place. Over these points spread less evenly than along the middle: of
+    // 23 such plates five had holes of 0.85 to 0.89 spacings.
+    let inset = inset.filter(|surface| {
+        let count = surface.measure() / area_each;
+        D == 2 || thin == Thin::Mass || depth == 0.0 || !is_sheet(body, count, depth)
+    });
     let shares = Shares::new(body, inset, (spacing, depth), thin)?;
     let counts = shares.counts();
     if let Some(surface) = inset {
@@ -170,12 +177,23 @@ fn as_if_thick<const D: usize>(
     })
 }
 
+/// Some points of a body's surface.
+fn probes<const D: usize>(body: &dyn Surface<D>, count: f64) -> Vec<Closest<D>> {
+    let probes = (PROBES_PER_POINT * count).clamp(FEWEST_PROBES, MOST_PROBES);
+    body.scatter(probes as usize)
+}
+
 /// Whether the body is thinner than `limit` somewhere, as far as some points of it tell.
 fn is_thin<const D: usize>(body: &dyn Surface<D>, count: f64, limit: f64) -> bool {
-    use rayon::prelude::*;
-    let probes = (PROBES_PER_POINT * count).clamp(FEWEST_PROBES, MOST_PROBES);
-    let hits = body.scatter(probes as usize);
-    hits.par_iter()
-        .with_min_len(64)
+    (probes(body, count).par_iter().with_min_len(64))
         .any(|hit| through(body, hit.point, point::scale(hit.normal, -1.0), limit) < THIN * limit)
+}
+
+/// Whether the body is hardly thicker than two depths anywhere, likewise.
+fn is_sheet<const D: usize>(body: &dyn Surface<D>, count: f64, depth: f64) -> bool {
+    let most = HARDLY * depth;
+    (probes(body, count).par_iter().with_min_len(64)).all(|hit| {
+        let inward = point::scale(hit.normal, -1.0);
+        Touching::at(body, hit.point, inward, 2.0 * most).radius <= most
+    })
 }

@@ -11,6 +11,10 @@ use crate::{GeometryError, ParameterError};
 /// Places per particle's area on the surface.
 const PLACES: f64 = 8.0;
 
+/// And on a watertight sheet in space: what points are moved to the middle of must be even itself where no hole may be left. With 8,
+/// six of eighty plates had holes of more than 0.85 spacings around a place without a point, with 32 none of 150 more than 0.80.
+const FINE: f64 = 32.0;
+
 /// Places at least and at most.
 const FEWEST: f64 = 1000.0;
 const MOST: f64 = 4e6;
@@ -19,7 +23,7 @@ const MOST: f64 = 4e6;
 const LINK: f64 = 0.75;
 
 /// Where the ball beneath is larger than this many depths there surely is a particle surface.
-const HARDLY: f64 = 1.1;
+pub(super) const HARDLY: f64 = 1.1;
 
 /// Balls are looked for up to a spacing, and beyond this many depths.
 const DEEP: f64 = 1.2;
@@ -103,7 +107,12 @@ impl<const D: usize> Shares<D> {
         (spacing, depth): (f64, f64),
         thin: Thin,
     ) -> Result<Self, GeometryError> {
-        let count = PLACES * body.measure() / spacing.powi(D as i32 - 1);
+        let places = if D == 3 && thin == Thin::Watertight {
+            FINE
+        } else {
+            PLACES
+        };
+        let count = places * body.measure() / spacing.powi(D as i32 - 1);
         let feet = body.scatter(count.clamp(FEWEST, MOST) as usize);
         if feet.is_empty() {
             return Err(ParameterError::OutOfRange {
@@ -132,7 +141,7 @@ impl<const D: usize> Shares<D> {
         let below: Vec<(Middle<D>, bool)> = below
             .par_iter()
             .with_min_len(64)
-            .map(|(place, between)| (place.middle(inset, area, least), *between))
+            .map(|(place, between)| (place.middle(inset, area, (least, *between)), *between))
             .collect();
         let volume_below: f64 = (below.iter())
             .map(|(middle, _)| middle.volume - middle.excess)
@@ -237,15 +246,26 @@ impl<const D: usize> Place<D> {
     }
 
     /// The middle of the ball beneath, for a piece of the surface of this area.
-    /// It is taken to be twice `least` thick at least.
-    fn middle(&self, inset: Option<&dyn Surface<D>>, area: f64, least: f64) -> Middle<D> {
+    /// Between two sides it is taken to be twice `least` thick at least. Beside them, at a plate's rim, a strip of its sides and as much
+    /// of the rim share a sheet's volume: else a plate a spacing thick would get a fifth more than its mass.
+    fn middle(
+        &self,
+        inset: Option<&dyn Surface<D>>,
+        area: f64,
+        (least, is_between): (f64, bool),
+    ) -> Middle<D> {
         let center = point::add_scaled(self.foot.point, -self.radius, self.foot.normal);
         let radius = self.radius.max(least);
+        let deep = if is_between || least == 0.0 {
+            radius
+        } else {
+            0.5 * least
+        };
         Middle {
             point: center,
             thickness: 2.0 * radius,
-            volume: area * radius,
-            excess: area * (radius - self.radius),
+            volume: area * deep,
+            excess: area * (deep - self.radius),
             clear: inset.map_or(f64::INFINITY, |surface| surface.closest(center).distance),
         }
     }

@@ -1,0 +1,9 @@
+"""The command ``sphpack``."""
+
+import sys
+
+from . import _native
+
+
+def main():
+    sys.exit(_native.command(["sphpack", *sys.argv[1:]]))

@@ -1,0 +1,156 @@
+//! Columns of particles to and from dictionaries of flat arrays.
+
+use std::collections::HashMap;
+
+use numpy::{Element, PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use sphpack::Table;
+use sphpack::prelude::{Kind, Side};
+
+use crate::errors::wrong;
+
+/// The particles' columns; the table is used up.
+pub(crate) fn to_python<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'py, PyDict>> {
+    let normal: Vec<f64> = if table.normals.is_empty() {
+        Vec::new()
+    } else {
+        (0..table.len()).flat_map(|i| table.normal(i)).collect()
+    };
+    let kind: Vec<u8> = table.kind.iter().map(|&kind| number_of(kind)).collect();
+    let side: Vec<u8> = (table.side.iter())
+        .map(|&side| u8::from(side == Side::Solid))
+        .collect();
+    let body: Vec<i32> = (table.body.iter())
+        .map(|body| body.map_or(-1, i32::from))
+        .collect();
+    let columns = PyDict::new(py);
+    columns.set_item("id", PyArray1::from_vec(py, table.id))?;
+    columns.set_item("kind", PyArray1::from_vec(py, kind))?;
+    columns.set_item("side", PyArray1::from_vec(py, side))?;
+    columns.set_item("body", PyArray1::from_vec(py, body))?;
+    for (name, numbers) in [
+        ("position", table.position.into_flattened()),
+        ("volume", table.volume),
+        ("mass", table.mass),
+        ("gamma", table.gamma),
+        ("residual", table.residual),
+        ("normal", normal),
+        ("pressure", table.pressure),
+        ("density", table.density),
+        ("spacing", table.spacing),
+        ("h", table.smoothing_length),
+    ] {
+        if !numbers.is_empty() {
+            columns.set_item(name, PyArray1::from_vec(py, numbers))?;
+        }
+    }
+    Ok(columns)
+}
+
+/// The place of a kind in [`Kind::ALL`].
+fn number_of(kind: Kind) -> u8 {
+    (Kind::ALL.iter().position(|&other| other == kind)).unwrap_or_default() as u8
+}
+
+/// The columns of [`to_python`] as a table again.
+pub(crate) fn from_python(
+    dimension: usize,
+    stop_reason: String,
+    bodies: Vec<String>,
+    columns: &Bound<'_, PyDict>,
+) -> PyResult<Table> {
+    let py = columns.py();
+    let numbers = |name: &str| column::<f64>(columns, name);
+    let id: Vec<u32> = column(columns, "id")?;
+    let points = |name: &str| -> PyResult<Vec<[f64; 3]>> {
+        let flat = numbers(name)?;
+        Ok(flat.as_chunks::<3>().0.to_vec())
+    };
+    let normals: HashMap<u32, [f64; 3]> = (id.iter().copied().zip(points("normal")?))
+        .filter(|(_, normal)| *normal != [0.0; 3])
+        .collect();
+    let kind = (column::<u8>(columns, "kind")?.into_iter())
+        .map(|kind| Kind::ALL.get(usize::from(kind)).copied())
+        .collect::<Option<Vec<Kind>>>()
+        .ok_or_else(|| wrong(py, "kind has numbers that are none; there are 0 to 3"))?;
+    let side = (column::<u8>(columns, "side")?.into_iter())
+        .map(|side| if side == 0 { Side::Fluid } else { Side::Solid })
+        .collect();
+    let body = (column::<i32>(columns, "body")?.into_iter())
+        .map(|body| u16::try_from(body).ok())
+        .collect();
+    let table = Table {
+        dimension,
+        stop_reason,
+        bodies,
+        position: points("position")?,
+        kind,
+        side,
+        body,
+        volume: numbers("volume")?,
+        mass: numbers("mass")?,
+        gamma: numbers("gamma")?,
+        residual: numbers("residual")?,
+        normals,
+        pressure: numbers("pressure")?,
+        density: numbers("density")?,
+        spacing: numbers("spacing")?,
+        smoothing_length: numbers("h")?,
+        id,
+    };
+    let count = table.len();
+    let always = [
+        table.position.len(),
+        table.kind.len(),
+        table.side.len(),
+        table.body.len(),
+        table.volume.len(),
+        table.mass.len(),
+        table.gamma.len(),
+        table.residual.len(),
+    ];
+    let sometimes = [
+        table.pressure.len(),
+        table.density.len(),
+        table.spacing.len(),
+        table.smoothing_length.len(),
+    ];
+    let is_right = always.iter().all(|&length| length == count)
+        && sometimes
+            .iter()
+            .all(|&length| length == 0 || length == count);
+    if !is_right {
+        return Err(wrong(
+            py,
+            "the columns differ in length; all need an entry for every particle",
+        ));
+    }
+    Ok(table)
+}
+
+/// A column; empty where there is none.
+fn column<T: Element + Copy>(columns: &Bound<'_, PyDict>, name: &str) -> PyResult<Vec<T>> {
+    match columns.get_item(name)? {
+        Some(array) => Ok(array.cast::<PyArray1<T>>()?.readonly().as_slice()?.to_vec()),
+        None => Ok(Vec::new()),
+    }
+}
+
+/// Points of a flat array.
+pub(crate) fn points<const D: usize>(py: Python<'_>, flat: &[f64]) -> PyResult<Vec<[f64; D]>> {
+    let (points, rest) = flat.as_chunks::<D>();
+    if !rest.is_empty() {
+        return Err(wrong(
+            py,
+            "points need as many numbers each as there are dimensions",
+        ));
+    }
+    if points.iter().flatten().any(|x| !x.is_finite()) {
+        return Err(wrong(
+            py,
+            "a point has a coordinate that is not a finite number; remove it",
+        ));
+    }
+    Ok(points.to_vec())
+}
