@@ -28,6 +28,23 @@ def words(codes, names):
     return np.array([names[int(code)] if code >= 0 else "" for code in codes])
 
 
+def fields(data):
+    """Names by column and number, from fields of one number each: `kind:free` is 0."""
+    names = {}
+    for field, code in data.items():
+        column, _, name = field.partition(":")
+        names.setdefault(column, {})[int(np.ravel(code)[0])] = name
+    return names
+
+
+def apart(columns):
+    """Normals by axis; velocities, which are 0, are dropped."""
+    for k, name in enumerate(["nx", "ny", "nz"]):
+        columns[name] = columns["normal"][:, k]
+    assert columns["velocity"].shape == columns["normal"].shape and not columns["velocity"].any()
+    return {name: column for name, column in columns.items() if name not in ("normal", "velocity")}
+
+
 def by_numpy(path):
     with np.load(path, allow_pickle=False) as archive:
         columns = {name: archive[name] for name in archive.files}
@@ -44,10 +61,15 @@ def by_pyvista(path):
     columns = {name: np.asarray(grid.point_data[name]) for name in grid.point_data.keys()}
     columns |= {name: np.asarray(grid.points)[:, k] for k, name in enumerate("xyz")}
     assert grid.n_cells == grid.n_points, "one cell for each particle"
+    if path.suffix == ".vtk":
+        names = {name: list(grid.field_data[f"{name}_names"]) for name in WORDS}
+        assert list(grid.field_data["stop_reason"]) == ["converged"]
+    else:
+        names = fields(grid.field_data)
+        assert names["stop_reason"] == {0: "converged"}
     for name in WORDS:
-        columns[name] = words(columns[name], list(grid.field_data[f"{name}_names"]))
-    assert list(grid.field_data["stop_reason"]) == ["converged"]
-    return columns
+        columns[name] = words(columns[name], names[name])
+    return apart(columns)
 
 
 def points_by_pyvista(path):
@@ -57,8 +79,14 @@ def points_by_pyvista(path):
 
 def by_meshio(path):
     mesh = meshio.read(path)
-    columns = {name: np.asarray(column).ravel() for name, column in mesh.point_data.items()}
-    return columns | {name: mesh.points[:, k] for k, name in enumerate("xyz")}
+    columns = {name: np.asarray(column) for name, column in mesh.point_data.items()}
+    columns |= {name: mesh.points[:, k] for k, name in enumerate("xyz")}
+    if path.suffix == ".vtu":
+        names = fields(mesh.field_data)
+        for name in WORDS:
+            columns[name] = words(columns[name], names[name])
+        columns = apart(columns)
+    return columns
 
 
 def ply_by_meshio(path):
@@ -98,9 +126,10 @@ def main(folder):
         points = {key: column for key, column in wanted.items() if key in "xyz"}
         readers = [
             ("npz", "numpy", by_numpy, wanted, [], 64),
-            ("vtu", "pyvista", by_pyvista, wanted, ["z"], 64),
-            ("vtp", "pyvista", by_pyvista, wanted, ["z"], 64),
-            ("vtk", "pyvista", by_pyvista, wanted, ["z"], 64),
+            ("vtu", "pyvista", by_pyvista, wanted, ["z", "nz"], 64),
+            ("vtu", "meshio", by_meshio, wanted, ["z", "nz"], 64),
+            ("vtp", "pyvista", by_pyvista, wanted, ["z", "nz"], 64),
+            ("vtk", "pyvista", by_pyvista, wanted, ["z", "nz"], 64),
             ("ply", "meshio", ply_by_meshio, wanted, ["z", "nz"], 64),
             ("ply", "pyvista", points_by_pyvista, points, ["z"], 32),
         ]

@@ -120,4 +120,4 @@ pub use report::{BodyReport, Counts, MassReport, Report, SCHEMA, SecondsReport};
 pub use run::{Options, Outcome, run};
 pub use scene::Scene;
 pub use solution::{Packing, Solution};
-pub use table::Table;
+pub use table::{Shared, Table};

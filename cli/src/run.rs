@@ -24,7 +24,7 @@ use crate::report::{
 use crate::scene::{Masses, Role, Scene};
 use crate::solution::{Packing, Solution};
 use crate::surroundings::surrounded;
-use crate::table::Table;
+use crate::table::{Shared, Table};
 use crate::{content, corrected};
 
 /// What particle files say in place of the reason why settling stopped, where the audit has found something.
@@ -203,6 +203,15 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
         let some = if is_graded { all.clone() } else { 0..0 };
         some.map(of).collect()
     };
+    let judged = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        (all.clone())
+            .map(|i| match particles.kind[i] {
+                Kind::Frozen => f64::NAN,
+                _ => of(i),
+            })
+            .collect()
+    };
+    let solids = scene.body.iter().map(|body| body.density);
     Table {
         dimension: D,
         stop_reason: packed.stop_reason.name().to_owned(),
@@ -220,8 +229,8 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .clone()
             .map(|i| density(i) * particles.volume[i])
             .collect(),
-        gamma: fields.gamma.clone(),
-        residual: all.clone().map(|i| fields.residual(i)).collect(),
+        gamma: judged(&|i| fields.gamma[i]),
+        residual: judged(&|i| fields.residual(i)),
         normals: (packed.on_surface.iter())
             .map(|seat| {
                 (
@@ -234,6 +243,11 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
         density: at_rest.iter().map(|rest| rest.density).collect(),
         spacing: sizes(&|i| particles.sizes.spacing(i)),
         smoothing_length: sizes(&|i| fields.sizes.smoothing_length(i)),
+        shared: Shared {
+            spacing: packed.spacing,
+            smoothing_length: scene.judge().1 * packed.spacing,
+            density: solids.chain([scene.fluid.density]).collect(),
+        },
     }
 }
 

@@ -10,7 +10,7 @@ use crate::solution::Packing;
 use crate::table::Table;
 
 /// The particles of `rows` and, in place of the frozen ones, their lattice on to the sides of the larger box: fluid that
-/// never moved, with Γ of the perfect lattice.
+/// never moved.
 pub(crate) fn surrounded(
     mut rows: Table,
     outcome: &Outcome,
@@ -30,8 +30,6 @@ pub(crate) fn surrounded(
 fn add<const D: usize>(rows: &mut Table, packed: &Packed<D>, scene: &Scene, around: &Surroundings) {
     let outer = Bounds::new(point::of_slice(&around.min), point::of_slice(&around.max));
     let lattice = packed.frozen_lattice;
-    let (kernel, h_over_spacing) = scene.judge();
-    let gamma = lattice.gamma(kernel, h_over_spacing * packed.spacing);
     let volume = lattice.volume_per_site();
     let mut id = packed
         .particles
@@ -55,8 +53,8 @@ fn add<const D: usize>(rows: &mut Table, packed: &Packed<D>, scene: &Scene, arou
             rows.density.push(density);
         }
         rows.mass.push(density * volume);
-        rows.gamma.push(gamma);
-        rows.residual.push(0.0);
+        rows.gamma.push(f64::NAN);
+        rows.residual.push(f64::NAN);
         id += 1;
     });
 }

@@ -28,9 +28,9 @@ pub struct Table {
     pub volume: Vec<f64>,
     /// Density of its body or of the fluid × volume.
     pub mass: Vec<f64>,
-    /// Γ.
+    /// Γ; NaN where it is not judged, of frozen particles.
     pub gamma: Vec<f64>,
-    /// h |∇Γ|.
+    /// h |∇Γ|; likewise.
     pub residual: Vec<f64>,
     /// Outward unit normals of the particle surface by the ids of boundary and fixed particles: few of many.
     pub normals: HashMap<u32, [f64; 3]>,
@@ -42,6 +42,19 @@ pub struct Table {
     pub spacing: Vec<f64>,
     /// The smoothing length of each, scene units, by which Γ was judged; empty likewise.
     pub smoothing_length: Vec<f64>,
+    /// What particles have that are not told apart.
+    pub shared: Shared,
+}
+
+/// What particles have in common.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Shared {
+    /// Spacing, scene units.
+    pub spacing: f64,
+    /// Smoothing length, scene units.
+    pub smoothing_length: f64,
+    /// Density of each body, and of the fluid last.
+    pub density: Vec<f64>,
 }
 
 /// Entries that a column is to keep, in their order.
@@ -126,9 +139,26 @@ impl Table {
         self
     }
 
-    /// The spacing of particle `i`: its own, or that of all.
-    pub fn spacing_of(&self, i: usize, all: f64) -> f64 {
-        self.spacing.get(i).copied().unwrap_or(all)
+    /// The spacing of particle `i`, scene units.
+    pub fn spacing_of(&self, i: usize) -> f64 {
+        self.spacing.get(i).copied().unwrap_or(self.shared.spacing)
+    }
+
+    /// Its smoothing length, scene units.
+    pub fn smoothing_length_of(&self, i: usize) -> f64 {
+        let own = self.smoothing_length.get(i).copied();
+        own.unwrap_or(self.shared.smoothing_length)
+    }
+
+    /// Its density: at its pressure, or at rest; 0 where nobody says.
+    pub fn density_of(&self, i: usize) -> f64 {
+        let of_material = || {
+            let all = &self.shared.density;
+            let fluid = all.len().saturating_sub(1);
+            let place = self.body[i].map_or(fluid, usize::from);
+            all.get(place).copied().unwrap_or(0.0)
+        };
+        self.density.get(i).copied().unwrap_or_else(of_material)
     }
 
     /// The outward unit normal at particle `i`; 0 where it is on no surface.

@@ -5,5 +5,5 @@ import sys
 from . import _native
 
 
-def main():
+def main() -> None:
     sys.exit(_native.command(["sphpack", *sys.argv[1:]]))

@@ -1,8 +1,13 @@
 """Particles as arrays."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._errors import InputError
@@ -20,7 +25,14 @@ class Particles:
     and ``body_code`` the small numbers behind them.
     """
 
-    def __init__(self, columns, report, dimension, bodies, stop_reason):
+    def __init__(
+        self,
+        columns: dict[str, NDArray[Any]],
+        report: dict[str, Any],
+        dimension: int,
+        bodies: list[str],
+        stop_reason: str,
+    ) -> None:
         self._columns = columns
         self.report = report
         """Everything that was measured, as a dictionary: the command's report."""
@@ -30,123 +42,127 @@ class Particles:
         self.stop_reason = stop_reason
         """Why the packing ended: "converged", or what kept it from that."""
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._columns["id"])
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         parts = [f"{len(self)} particles", f"{self.dimension}-D", self.stop_reason]
         density = self.report.get("density") if self.report else None
         if density:
             parts.append(f"max |Γ − 1| = {100 * density['linf']:.2g} %")
         return f"<sphpack.Particles: {', '.join(parts)}>"
 
-    def _points(self, name):
+    def _points(self, name: str) -> NDArray[np.float64]:
         flat = self._columns.get(name)
         if flat is None:
             return np.zeros((len(self), self.dimension))
         return flat.reshape(-1, 3)[:, : self.dimension]
 
-    def _given(self, name, otherwise):
-        column = self._columns.get(name)
-        return np.full(len(self), otherwise) if column is None else column
-
     @property
-    def id(self):
+    def id(self) -> NDArray[np.uint32]:
         """A number that stays with the particle."""
         return self._columns["id"]
 
     @property
-    def position(self):
+    def position(self) -> NDArray[np.float64]:
         """Shape (n, dimension), scene units."""
         return self._points("position")
 
     @property
-    def normal(self):
+    def normal(self) -> NDArray[np.float64]:
         """Outward unit normals of the body's surface at its particles, shape (n, dimension); 0 elsewhere."""
         return self._points("normal")
 
     @property
-    def volume(self):
+    def volume(self) -> NDArray[np.float64]:
         """Areas in 2-D."""
         return self._columns["volume"]
 
     @property
-    def mass(self):
+    def mass(self) -> NDArray[np.float64]:
         """Volume × density of the body or the fluid."""
         return self._columns["mass"]
 
     @property
-    def density(self):
+    def density(self) -> NDArray[np.float64]:
         """What a particle's material has, under hydrostatic pressure where the scene asks for that."""
-        return self._columns["density"] if "density" in self._columns else self.mass / self.volume
+        return self._columns["density"]
 
     @property
-    def spacing(self):
+    def spacing(self) -> NDArray[np.float64]:
         """Of each particle, scene units."""
-        return self._given("spacing", self.report["spacing"])
+        return self._columns["spacing"]
 
     @property
-    def h(self):
+    def h(self) -> NDArray[np.float64]:
         """Smoothing lengths, scene units."""
-        return self._given("h", self.report["h_over_spacing"] * self.report["spacing"])
+        return self._columns["h"]
 
     @property
-    def pressure(self):
+    def pressure(self) -> NDArray[np.float64]:
         """Hydrostatic, where the scene asks for it; else 0."""
-        return self._given("pressure", 0.0)
+        pressure = self._columns.get("pressure")
+        return np.zeros(len(self)) if pressure is None else pressure
 
     @property
-    def gamma(self):
-        """Γ, the kernel's sum over all neighbours: 1 in an even packing."""
+    def gamma(self) -> NDArray[np.float64]:
+        """Γ, the kernel's sum over all neighbours: 1 in an even packing. NaN for frozen particles, which are not judged."""
         return self._columns["gamma"]
 
     @property
-    def residual(self):
+    def residual(self) -> NDArray[np.float64]:
         """h |∇Γ|: 0 where a constant pressure pushes nobody."""
         return self._columns["residual"]
 
     @property
-    def kind_code(self):
+    def kind_code(self) -> NDArray[np.uint8]:
         """0 free, 1 boundary (on a surface), 2 fixed (at a corner), 3 frozen (outside the box)."""
         return self._columns["kind"]
 
     @property
-    def side_code(self):
+    def side_code(self) -> NDArray[np.uint8]:
         """0 fluid, 1 solid."""
         return self._columns["side"]
 
     @property
-    def body_code(self):
+    def body_code(self) -> NDArray[np.int32]:
         """The place of the particle's body in ``bodies``; −1 in the fluid."""
         return self._columns["body"]
 
     @property
-    def kind(self):
+    def kind(self) -> NDArray[np.str_]:
         """As words."""
         return np.asarray(KINDS)[self.kind_code]
 
     @property
-    def side(self):
+    def side(self) -> NDArray[np.str_]:
         """As words."""
         return np.asarray(SIDES)[self.side_code]
 
     @property
-    def body(self):
+    def body(self) -> NDArray[np.str_]:
         """As names; empty in the fluid."""
         return np.asarray([*self.bodies, ""])[self.body_code]
 
     @property
-    def converged(self):
+    def converged(self) -> bool:
         """Whether the packing has settled and the audit has passed."""
         return self.stop_reason == "converged"
 
     @property
-    def quality(self):
+    def quality(self) -> dict[str, Any]:
         """The figures by which a packing is judged: density, residual, closest pair and audit of the report."""
         names = ("density", "residual", "closest_pair_over_spacing", "audit", "converged")
         return {name: self.report[name] for name in names}
 
-    def select(self, mask=None, *, kind=None, side=None, body=None):
+    def select(
+        self,
+        mask: ArrayLike | None = None,
+        *,
+        kind: str | Iterable[str] | None = None,
+        side: str | Iterable[str] | None = None,
+        body: str | Iterable[str] | None = None,
+    ) -> Particles:
         """Those particles for which all that is given holds: a mask, and words or lists of words."""
         keep = np.ones(len(self), dtype=bool) if mask is None else np.asarray(mask)
         if keep.dtype != bool:
@@ -169,14 +185,14 @@ class Particles:
         }
         return Particles(columns, self.report, self.dimension, self.bodies, self.stop_reason)
 
-    def save(self, path, force=False):
+    def save(self, path: str | os.PathLike[str], force: bool = False) -> None:
         """Writes a file whose ending says the format: vtu, csv, npz, vtp, vtk or ply. One that exists only with ``force``."""
         columns = {name: np.ascontiguousarray(column) for name, column in self._columns.items()}
         _native.save(
             os.fspath(path), force, self.dimension, self.stop_reason, self.bodies, columns
         )
 
-    def plot(self, by="gamma", ax=None, **style):
+    def plot(self, by: str = "gamma", ax: Any = None, **style: Any) -> Any:
         """Draws the particles, coloured by a column, and gives the axes. In the plane with matplotlib; in space with pyvista
         where it is installed, and else a slice of one spacing through the middle."""
         values = getattr(self, by)

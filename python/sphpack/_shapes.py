@@ -1,63 +1,73 @@
 """Shapes of bodies, as scenes name them; and bodies that a program has in memory."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._errors import InputError
 
+Numbers = Sequence[float]
 
-def circle(center, radius):
+Shape = dict[str, Any]
+"""A shape as scenes write it."""
+
+
+def circle(center: Numbers, radius: float) -> Shape:
     """2-D."""
     return {"circle": {"center": center, "radius": radius}}
 
 
-def ellipse(center, semi_axes):
+def ellipse(center: Numbers, semi_axes: Numbers) -> Shape:
     """2-D, axes along x and y."""
     return {"ellipse": {"center": center, "semi_axes": semi_axes}}
 
 
-def box(min, max):
+def box(min: Numbers, max: Numbers) -> Shape:
     """2-D or 3-D, from one corner to the opposite one."""
     return {"box": {"min": min, "max": max}}
 
 
-def polygon(points):
+def polygon(points: ArrayLike) -> Shape:
     """2-D, one closed loop in either order."""
     return {"polygon": {"points": points}}
 
 
-def starfish(center, radius, amplitude, arms):
+def starfish(center: Numbers, radius: float, amplitude: float, arms: int) -> Shape:
     """2-D, r = radius (1 + amplitude cos(arms θ))."""
     return {"starfish": {"center": center, "radius": radius, "amplitude": amplitude, "arms": arms}}
 
 
-def zigzag(width, height, amplitude, teeth):
+def zigzag(width: float, height: float, amplitude: float, teeth: int) -> Shape:
     """2-D, a wall with a triangular wave on top."""
     return {"zigzag": {"width": width, "height": height, "amplitude": amplitude, "teeth": teeth}}
 
 
-def naca(digits, chord=1.0):
+def naca(digits: str | int, chord: float = 1.0) -> Shape:
     """2-D, leading edge at the origin, chord along +x."""
     return {"naca": {"digits": str(digits), "chord": chord}}
 
 
-def sphere(center, radius):
+def sphere(center: Numbers, radius: float) -> Shape:
     """3-D."""
     return {"sphere": {"center": center, "radius": radius}}
 
 
-def ellipsoid(center, semi_axes):
+def ellipsoid(center: Numbers, semi_axes: Numbers) -> Shape:
     """3-D, axes along x, y and z."""
     return {"ellipsoid": {"center": center, "semi_axes": semi_axes}}
 
 
-def cylinder(start, end, radius):
+def cylinder(start: Numbers, end: Numbers, radius: float) -> Shape:
     """3-D, with flat ends."""
     return {"cylinder": {"start": start, "end": end, "radius": radius}}
 
 
-def torus(center, axis, major, minor):
+def torus(center: Numbers, axis: Numbers, major: float, minor: float) -> Shape:
     """3-D, a tube of radius ``minor`` around a circle of radius ``major``."""
     return {"torus": {"center": center, "axis": axis, "major": major, "minor": minor}}
 
@@ -67,7 +77,7 @@ class Outline:
 
     suffix = ".csv"
 
-    def __init__(self, loops):
+    def __init__(self, loops: Any) -> None:
         if np.ndim(loops) == 2 if isinstance(loops, np.ndarray) else _is_one_loop(loops):
             loops = [loops]
         self.loops = [np.ascontiguousarray(loop, dtype=np.float64) for loop in loops]
@@ -75,7 +85,7 @@ class Outline:
             if loop.ndim != 2 or loop.shape[1] != 2:
                 raise InputError(f"an outline is an array of shape (n, 2), not {loop.shape}")
 
-    def write(self, path):
+    def write(self, path: str) -> None:
         with open(path, "w", encoding="ascii") as file:
             for number, loop in enumerate(self.loops):
                 if number:
@@ -83,7 +93,7 @@ class Outline:
                 file.writelines(f"{x!r},{y!r}\n" for x, y in loop.tolist())
 
 
-def _is_one_loop(loops):
+def _is_one_loop(loops: Any) -> bool:
     first = loops[0] if len(loops) else ()
     return np.ndim(first) == 1
 
@@ -93,7 +103,7 @@ class Triangles:
 
     suffix = ".ply"
 
-    def __init__(self, vertices, faces):
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike) -> None:
         self.vertices = np.ascontiguousarray(vertices, dtype=np.float64)
         self.faces = np.ascontiguousarray(faces, dtype=np.int64)
         if self.vertices.ndim != 2 or self.vertices.shape[1] != 3:
@@ -103,7 +113,7 @@ class Triangles:
         if len(self.faces) and not (0 <= self.faces.min() and self.faces.max() < len(self.vertices)):
             raise InputError("a face has a vertex that there is not; they are counted from 0")
 
-    def write(self, path):
+    def write(self, path: str) -> None:
         faces = np.empty(len(self.faces), dtype=[("count", "u1"), ("corners", "<i4", (3,))])
         faces["count"] = 3
         faces["corners"] = self.faces
@@ -119,22 +129,22 @@ class Triangles:
             file.write(faces.tobytes())
 
 
-def mesh(vertices, faces):
+def mesh(vertices: ArrayLike, faces: ArrayLike) -> Triangles:
     """3-D, from arrays: vertices of shape (n, 3), triangles of shape (m, 3)."""
     return Triangles(vertices, faces)
 
 
-def outline(loops):
+def outline(loops: Any) -> Outline:
     """2-D, from arrays: one closed loop of shape (n, 2), or a list of them."""
     return Outline(loops)
 
 
-def file(path):
+def file(path: str | os.PathLike[str]) -> Shape:
     """A mesh (STL, OBJ, PLY) or an outline (rows of x,y, an airfoil, SVG)."""
     return {"file": os.fspath(path)}
 
 
-def as_shape(body):
+def as_shape(body: Any) -> Shape | Outline | Triangles:
     """What a scene, or this package, takes as a shape: a path, arrays, or a mesh of trimesh, pyvista or meshio."""
     if isinstance(body, (dict, Outline, Triangles)):
         return body
@@ -160,7 +170,7 @@ def as_shape(body):
     )
 
 
-def _of_meshio(body):
+def _of_meshio(body: Any) -> Triangles:
     triangles = body.cells_dict.get("triangle", np.empty((0, 3), dtype=np.int64))
     quads = body.cells_dict.get("quad", np.empty((0, 4), dtype=np.int64))
     faces = np.concatenate([triangles, quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

@@ -1,12 +1,16 @@
 """Scenes as text: dictionaries, lists, numbers, words and truth values as TOML."""
 
+from __future__ import annotations
+
 import json
 import os
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
 
-def _value(value):
+def _value(value: Any) -> str:
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, (int, np.integer)):
@@ -27,16 +31,16 @@ def _value(value):
     raise TypeError(f"{value!r} is nothing that a scene can hold; it needs numbers, words, lists or dictionaries")
 
 
-def _key(key):
+def _key(key: str) -> str:
     if key and all(c.isascii() and (c.isalnum() or c in "-_") for c in key):
         return key
     return json.dumps(key, ensure_ascii=False)
 
 
-def to_toml(scene):
+def to_toml(scene: Mapping[str, Any]) -> str:
     """The text of a scene given as a dictionary of sections."""
-    lines = []
-    tables = []
+    lines: list[str] = []
+    tables: list[tuple[str, Any]] = []
     for key, value in scene.items():
         if value is None or (isinstance(value, (dict, list)) and key != "" and not value):
             continue

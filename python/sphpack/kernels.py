@@ -4,7 +4,12 @@
     w(r, h), w.slope(r, h)
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 
@@ -14,29 +19,29 @@ class Kernel:
 
     name = ""
 
-    def __init__(self, dimension):
+    def __init__(self, dimension: int) -> None:
         if dimension not in (1, 2, 3):
             raise ValueError(f"dimension is {dimension}; it must be 1, 2 or 3")
         self.dimension = dimension
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"sphpack.kernels.{type(self).__name__}({self.dimension})"
 
     @property
-    def support(self):
+    def support(self) -> float:
         """Where it ends, in units of h."""
         return _native.kernel_support(self.name)
 
-    def _both(self, r, h):
+    def _both(self, r: ArrayLike, h: float) -> Iterator[NDArray[np.float64]]:
         r = np.asarray(r, dtype=np.float64)
         flat = np.ascontiguousarray(r).reshape(-1)
         return (array.reshape(r.shape) for array in _native.kernel_values(self.name, self.dimension, h, flat))
 
-    def __call__(self, r, h):
+    def __call__(self, r: ArrayLike, h: float) -> NDArray[np.float64]:
         """W(r, h)."""
         return next(self._both(r, h))
 
-    def slope(self, r, h):
+    def slope(self, r: ArrayLike, h: float) -> NDArray[np.float64]:
         """dW/dr."""
         _, slope = self._both(r, h)
         return slope

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sphpack::Table;
 use sphpack::prelude::{Kind, Side};
+use sphpack::{Shared, Table};
 
 use crate::errors::wrong;
 
@@ -24,6 +24,10 @@ pub(crate) fn to_python<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'p
     let body: Vec<i32> = (table.body.iter())
         .map(|body| body.map_or(-1, i32::from))
         .collect();
+    let every = |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..table.len()).map(of).collect() };
+    let density = every(&|i| table.density_of(i));
+    let spacing = every(&|i| table.spacing_of(i));
+    let h = every(&|i| table.smoothing_length_of(i));
     let columns = PyDict::new(py);
     columns.set_item("id", PyArray1::from_vec(py, table.id))?;
     columns.set_item("kind", PyArray1::from_vec(py, kind))?;
@@ -37,9 +41,9 @@ pub(crate) fn to_python<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'p
         ("residual", table.residual),
         ("normal", normal),
         ("pressure", table.pressure),
-        ("density", table.density),
-        ("spacing", table.spacing),
-        ("h", table.smoothing_length),
+        ("density", density),
+        ("spacing", spacing),
+        ("h", h),
     ] {
         if !numbers.is_empty() {
             columns.set_item(name, PyArray1::from_vec(py, numbers))?;
@@ -97,6 +101,7 @@ pub(crate) fn from_python(
         density: numbers("density")?,
         spacing: numbers("spacing")?,
         smoothing_length: numbers("h")?,
+        shared: Shared::default(),
         id,
     };
     let count = table.len();

@@ -9,7 +9,7 @@ use std::time::Instant;
 use crate::scene_fuzz::{self, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
-use crate::{balanced, bodies, front, reproduction, stability, steady, tidy, variable};
+use crate::{balanced, bodies, front, python, reproduction, stability, steady, tidy, variable};
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
 const RANDOM_SCENES: usize = 50;
@@ -26,7 +26,7 @@ const SCENE_FILES: usize = 1000;
 /// A check and its name.
 type Check = (&'static str, fn() -> Result<(), String>);
 
-const CHECKS: [Check; 17] = [
+const CHECKS: [Check; 18] = [
     ("house rules", || tidy::run(&root())),
     ("format", || cargo(&["fmt", "--all", "--check"], &[])),
     ("clippy", clippy),
@@ -39,6 +39,7 @@ const CHECKS: [Check; 17] = [
     ("tests", || cargo(&["test", "--workspace"], &[])),
     ("examples", examples),
     ("packages", package),
+    ("python", || python::run(python::Settings::quick())),
     ("reproduction", || {
         reproduction::run(&reproduction::Settings::quick())
     }),
@@ -105,6 +106,8 @@ fn package() -> Result<(), String> {
             "--workspace",
             "--exclude",
             "xtask",
+            "--exclude",
+            "sphpack-python",
             "--no-verify",
             "--allow-dirty",
             "--offline",

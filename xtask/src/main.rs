@@ -29,6 +29,7 @@ mod mangle;
 mod marks;
 mod parsed;
 mod power_law;
+mod python;
 mod random_start;
 mod relaxed_airfoils;
 mod reliability;

@@ -5,7 +5,7 @@ use crate::scene_fuzz::{self, estimates, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
-    balanced, bodies, ci, compare, corpora, draw, flow, front, fuzz, lattices, reliability,
+    balanced, bodies, ci, compare, corpora, draw, flow, front, fuzz, lattices, python, reliability,
     reproduction, round_trip, speed, stability, steady, tidy, variable,
 };
 
@@ -24,7 +24,7 @@ pub(crate) struct Task {
 }
 
 /// In the order of the usage; of one name the forms with flags come first.
-pub(crate) const TASKS: [Task; 24] = [
+pub(crate) const TASKS: [Task; 25] = [
     Task {
         name: "ci",
         known: &[],
@@ -36,6 +36,18 @@ pub(crate) const TASKS: [Task; 24] = [
         known: &[],
         about: &["house rules: crate graph, file sizes, names, lints"],
         read: |_| Ok(Box::new(|| tidy::run(&root()))),
+    },
+    Task {
+        name: "python",
+        known: python::Settings::KNOWN,
+        about: &[
+            "builds the Python package and runs its tests, where there is a Python;",
+            "--wheel as users get it: a wheel in target/python/wheels, tried in an environment of its own",
+        ],
+        read: |given| {
+            let settings = python::Settings::of(given);
+            Ok(Box::new(move || python::run(settings)))
+        },
     },
     Task {
         name: "draw",

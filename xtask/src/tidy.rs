@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 mod rings;
 
 /// Which of our crates each crate may depend on. One direction only: see ARCHITECTURE.md.
-const GRAPH: [(&str, &[&str]); 9] = [
+const GRAPH: [(&str, &[&str]); 10] = [
     ("kernels", &[]),
     ("neighbors", &[]),
     ("pairs", &["kernels", "neighbors"]),
@@ -25,6 +25,7 @@ const GRAPH: [(&str, &[&str]); 9] = [
             "separation",
         ],
     ),
+    ("python", &["cli"]),
     (
         "xtask",
         &[

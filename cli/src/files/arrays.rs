@@ -53,6 +53,11 @@ impl<'a> Array<'a> {
         Self { name, values }
     }
 
+    pub(super) fn point(name: &'static str, value: impl Fn(usize) -> [f64; 3] + 'a) -> Self {
+        let values = Values::Point(Box::new(value));
+        Self { name, values }
+    }
+
     /// Numbers in each row.
     pub(super) fn components(&self) -> usize {
         if matches!(self.values, Values::Point(_)) {
@@ -126,10 +131,7 @@ pub(super) fn in_blocks(
 
 /// The positions, with z = 0 in 2-D.
 pub(super) fn points(table: &Table) -> Array<'_> {
-    Array {
-        name: "Points",
-        values: Values::Point(Box::new(|i| table.position[i])),
-    }
+    Array::point("Points", |i| table.position[i])
 }
 
 /// `kind`, `side` and `body` as places in their lists of names; a body's is −1 where there is none.
@@ -141,28 +143,38 @@ pub(super) fn codes(table: &Table) -> [Array<'_>; 3] {
     ]
 }
 
-/// `volume` to `nz`, `nz` only in 3-D; `spacing` and `h`, `pressure` and `density` where the table has them.
+/// `volume` to `residual`, and `pressure` where the table has it.
 pub(super) fn measures(table: &Table) -> Vec<Array<'_>> {
     let mut all = vec![
         Array::float("volume", |i| table.volume[i]),
         Array::float("mass", |i| table.mass[i]),
+        Array::float("density", |i| table.density_of(i)),
+        Array::float("h", |i| table.smoothing_length_of(i)),
+        Array::float("spacing", |i| table.spacing_of(i)),
         Array::float("gamma", |i| table.gamma[i]),
         Array::float("residual", |i| table.residual[i]),
-        Array::float("nx", |i| table.normal(i)[0]),
-        Array::float("ny", |i| table.normal(i)[1]),
     ];
-    if table.dimension == 3 {
-        all.push(Array::float("nz", |i| table.normal(i)[2]));
-    }
-    if !table.spacing.is_empty() {
-        all.push(Array::float("spacing", |i| table.spacing[i]));
-        all.push(Array::float("h", |i| table.smoothing_length[i]));
-    }
     if !table.pressure.is_empty() {
         all.push(Array::float("pressure", |i| table.pressure[i]));
-        all.push(Array::float("density", |i| table.density[i]));
     }
     all
+}
+
+/// `nx` to `nz`, `nz` only in 3-D.
+pub(super) fn normals(table: &Table) -> Vec<Array<'_>> {
+    ["nx", "ny", "nz"][..table.dimension.max(2)]
+        .iter()
+        .enumerate()
+        .map(|(axis, name)| Array::float(name, move |i| table.normal(i)[axis]))
+        .collect()
+}
+
+/// `normal` and `velocity`, which is 0, with three components each.
+pub(super) fn vectors(table: &Table) -> [Array<'_>; 2] {
+    [
+        Array::point("normal", |i| table.normal(i)),
+        Array::point("velocity", |_| [0.0; 3]),
+    ]
 }
 
 /// What the codes stand for: the column, and its names in order.

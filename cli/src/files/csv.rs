@@ -18,17 +18,11 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     super::validate::check(table)?;
     let space = table.dimension == 3;
     let has_pressure = !table.pressure.is_empty();
-    let has_sizes = !table.spacing.is_empty();
-    let sizes = if has_sizes { ",spacing,h" } else { "" };
-    let more = if has_pressure {
-        ",pressure,density"
-    } else {
-        ""
-    };
+    let more = if has_pressure { ",pressure" } else { "" };
     let (z, nz) = if space { (",z", ",nz") } else { ("", "") };
     writeln!(
         to,
-        "id,x,y{z},kind,side,body,volume,mass,gamma,residual,nx,ny{nz}{sizes}{more}"
+        "id,x,y{z},kind,side,body,volume,mass,density,h,spacing,gamma,residual,nx,ny{nz}{more}"
     )?;
     let names: Vec<String> = table.bodies.iter().map(|name| quoted(name)).collect();
     for i in 0..table.len() {
@@ -43,28 +37,22 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
         let [nx, ny, nz] = table.normal(i).map(Short);
         write!(
             to,
-            ",{},{},{body},{},{},{},{},{nx},{ny}",
+            ",{},{},{body},{},{},{},{},{},{},{},{nx},{ny}",
             table.kind[i].name(),
             table.side[i].name(),
             Short(table.volume[i]),
             Short(table.mass[i]),
+            Short(table.density_of(i)),
+            Short(table.smoothing_length_of(i)),
+            Short(table.spacing_of(i)),
             Short(table.gamma[i]),
             Short(table.residual[i]),
         )?;
         if space {
             write!(to, ",{nz}")?;
         }
-        if has_sizes {
-            let [spacing, h] = [table.spacing[i], table.smoothing_length[i]].map(Short);
-            write!(to, ",{spacing},{h}")?;
-        }
         if has_pressure {
-            write!(
-                to,
-                ",{},{}",
-                Short(table.pressure[i]),
-                Short(table.density[i])
-            )?;
+            write!(to, ",{}", Short(table.pressure[i]))?;
         }
         writeln!(to)?;
     }

@@ -27,6 +27,26 @@ fn npz_of_others() {
 }
 
 #[test]
+fn vtu_with_names_as_strings_and_normals_as_vectors() {
+    let text = r#"<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"><UnstructuredGrid><FieldData>
+<DataArray type="String" Name="kind_names" NumberOfTuples="2" format="ascii">102 114 101 101 0 98 0</DataArray>
+<DataArray type="Int32" Name="side:a &lt;&quot;b&quot;&gt;" NumberOfTuples="1" format="ascii"> 1 </DataArray>
+<DataArray type="Int32" Name="side:far" NumberOfTuples="1" format="ascii">999999999999</DataArray>
+</FieldData><Piece NumberOfPoints="2" NumberOfCells="0">
+<Points><DataArray type="Float64" Name="p" NumberOfComponents="3" format="ascii">0 0 0 1 2 0</DataArray></Points>
+<PointData><DataArray type="Int32" Name="kind" format="ascii">1 0</DataArray>
+<DataArray type="Int32" Name="side" format="ascii">0 1</DataArray>
+<DataArray type="Float64" Name="normal" NumberOfComponents="3" format="ascii">0 1 0 0.6 0.8 0</DataArray>
+</PointData></Piece></UnstructuredGrid></VTKFile>"#;
+    let columns = read_vtu(text.as_bytes(), Path::new("p.vtu")).unwrap();
+    assert_eq!(columns.words["kind"], ["b", "free"]);
+    assert_eq!(columns.words["side"], ["", "a <\"b\">"]);
+    assert_eq!(columns.numbers["nx"], [0.0, 0.6]);
+    assert_eq!(columns.numbers["ny"], [1.0, 0.8]);
+}
+
+#[test]
 fn npz_that_would_fill_the_memory() {
     // Its directory claims what deflate could make of it.
     let mut bytes = written(ParticleFormat::Npz, &one_particle(3));

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use sphpack_packing::Kind;
 use sphpack_separation::Side;
 
-use super::arrays::{Array, Values, in_blocks, measures};
+use super::arrays::{Array, Values, in_blocks, measures, normals};
 use super::number_type::ByteOrder;
 use super::zip::Zip;
 use crate::table::Table;
@@ -51,7 +51,7 @@ pub(super) fn write(table: &Table, archive: &mut Zip<'_>) -> io::Result<()> {
     add_words(archive, "body", &bodies, n, |i| {
         table.body[i].map(usize::from)
     })?;
-    for array in &measures(table) {
+    for array in measures(table).iter().chain(&normals(table)) {
         add_numbers(archive, array, n)?;
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::arrays::{Array, Values, code_names, codes, in_blocks, measures};
+use super::arrays::{Array, Values, code_names, codes, in_blocks, measures, normals};
 use super::number_type::ByteOrder;
 use crate::table::Table;
 
@@ -22,6 +22,7 @@ pub fn write_ply(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     ];
     all.extend(codes(table));
     all.extend(measures(table));
+    all.extend(normals(table));
     if table.dimension == 2 {
         all.push(Array::float("nz", |i| table.normal(i)[2]));
     }

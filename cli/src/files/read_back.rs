@@ -84,6 +84,9 @@ impl<'t> Found<'t> {
             ("id", Box::new(|i| f64::from(table.id[i]))),
             ("volume", Box::new(|i| table.volume[i])),
             ("mass", Box::new(|i| table.mass[i])),
+            ("density", Box::new(|i| table.density_of(i))),
+            ("h", Box::new(|i| table.smoothing_length_of(i))),
+            ("spacing", Box::new(|i| table.spacing_of(i))),
             ("gamma", Box::new(|i| table.gamma[i])),
             ("residual", Box::new(|i| table.residual[i])),
             ("nx", Box::new(|i| table.normal(i)[0])),
@@ -92,7 +95,6 @@ impl<'t> Found<'t> {
         ];
         if !table.pressure.is_empty() {
             expected.push(("pressure", Box::new(|i| table.pressure[i])));
-            expected.push(("density", Box::new(|i| table.density[i])));
         }
         Self {
             table,

@@ -7,7 +7,7 @@ use sphpack_packing::Kind;
 use sphpack_separation::Side;
 
 use super::*;
-use crate::table::Table;
+use crate::table::{Shared, Table};
 
 /// Any finite number, from the smallest to the largest.
 fn number() -> impl Strategy<Value = f64> {
@@ -36,6 +36,11 @@ fn tables() -> impl Strategy<Value = Table> {
                 "a, \"quoted\" name".into(),
                 "flap & <Ω>".into(),
             ],
+            shared: Shared {
+                spacing: 0.1,
+                smoothing_length: 0.12,
+                density: vec![2.5, 1e-3, 7.8, 1e3],
+            },
             ..Table::default()
         };
         let flat = |[x, y, z]: [f64; 3]| [x, y, if dimension == 2 { 0.0 } else { z }];
@@ -69,6 +74,20 @@ fn agree(columns: &Columns, table: &Table) -> Result<(), TestCaseError> {
         ("y", axis(&table.position, 1)),
         ("volume", table.volume.clone()),
         ("mass", table.mass.clone()),
+        (
+            "density",
+            (0..table.len()).map(|i| table.density_of(i)).collect(),
+        ),
+        (
+            "h",
+            (0..table.len())
+                .map(|i| table.smoothing_length_of(i))
+                .collect(),
+        ),
+        (
+            "spacing",
+            (0..table.len()).map(|i| table.spacing_of(i)).collect(),
+        ),
         ("gamma", table.gamma.clone()),
         ("residual", table.residual.clone()),
         ("nx", axis(&normals, 0)),
@@ -80,11 +99,6 @@ fn agree(columns: &Columns, table: &Table) -> Result<(), TestCaseError> {
     }
     if !table.pressure.is_empty() {
         expected.push(("pressure", table.pressure.clone()));
-        expected.push(("density", table.density.clone()));
-    }
-    if !table.spacing.is_empty() {
-        expected.push(("spacing", table.spacing.clone()));
-        expected.push(("h", table.smoothing_length.clone()));
     }
     for (name, values) in expected {
         prop_assert_eq!(bits(&columns.numbers[name]), bits(&values), "{}", name);
@@ -168,6 +182,7 @@ pub(super) fn one_particle(dimension: usize) -> Table {
         density: vec![1e3],
         spacing: vec![1e-3],
         smoothing_length: vec![1.2e-3],
+        shared: Shared::default(),
     }
 }
 
@@ -193,9 +208,10 @@ fn no_particle_and_one() {
                     // Formats of three coordinates.
                     _ => assert_eq!(*z.unwrap(), axis(&table.position, 2), "{ending}"),
                 }
+                let is_flat = matches!(format, ParticleFormat::Csv | ParticleFormat::Npz);
                 assert_eq!(
                     columns.numbers.contains_key("nz"),
-                    dimension == 3 || format == ParticleFormat::Ply
+                    dimension == 3 || !is_flat
                 );
             }
         }
@@ -228,6 +244,41 @@ fn what_no_file_may_hold() {
     };
     refuse(&with(spoil), "ny of particle");
     refuse(&with(|t| t.bodies[0] = "a\nb".into()), "control character");
+}
+
+#[test]
+fn what_is_not_judged_is_nan_and_stays_so() {
+    let mut table = one_particle(3);
+    table.kind = vec![Kind::Frozen];
+    table.gamma = vec![f64::NAN];
+    table.residual = vec![f64::NAN];
+    for (format, ending) in PARTICLE_FORMATS {
+        let columns = read_back(format, &written(format, &table)).unwrap();
+        assert!(columns.numbers["gamma"][0].is_nan(), "{ending}");
+        assert!(columns.numbers["residual"][0].is_nan(), "{ending}");
+    }
+}
+
+#[test]
+fn sizes_and_densities_are_every_particles_own_or_what_all_share() {
+    let mut table = one_particle(2);
+    table.spacing = Vec::new();
+    table.smoothing_length = Vec::new();
+    table.density = Vec::new();
+    table.pressure = Vec::new();
+    table.shared = Shared {
+        spacing: 0.25,
+        smoothing_length: 0.3,
+        density: vec![2.0, 3.0, 4.0],
+    };
+    for (body, density) in [(Some(0), 2.0), (Some(1), 3.0), (None, 4.0)] {
+        table.body = vec![body];
+        for (format, ending) in PARTICLE_FORMATS {
+            let columns = read_back(format, &written(format, &table)).unwrap();
+            let found = ["spacing", "h", "density"].map(|name| columns.numbers[name][0]);
+            assert_eq!(found, [0.25, 0.3, density], "{ending}");
+        }
+    }
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use std::io;
 
+use sphpack_packing::Kind;
+
 use crate::table::Table;
 
 /// Refuses numbers that are not finite, and names of bodies that would break lines.
@@ -14,19 +16,30 @@ pub(super) fn check(table: &Table) -> io::Result<()> {
     }
     for i in 0..table.len() {
         let [[x, y, z], [nx, ny, nz]] = [table.position[i], table.normal(i)];
+        // What is frozen is not judged.
+        let is_frozen = table.kind[i] == Kind::Frozen;
+        let judged = |number: f64| {
+            if is_frozen && number.is_nan() {
+                0.0
+            } else {
+                number
+            }
+        };
         let row = [
             ("x", x),
             ("y", y),
             ("z", z),
             ("volume", table.volume[i]),
             ("mass", table.mass[i]),
-            ("gamma", table.gamma[i]),
-            ("residual", table.residual[i]),
+            ("gamma", judged(table.gamma[i])),
+            ("residual", judged(table.residual[i])),
             ("nx", nx),
             ("ny", ny),
             ("nz", nz),
             ("pressure", table.pressure.get(i).copied().unwrap_or(0.0)),
-            ("density", table.density.get(i).copied().unwrap_or(0.0)),
+            ("density", table.density_of(i)),
+            ("h", table.smoothing_length_of(i)),
+            ("spacing", table.spacing_of(i)),
         ];
         if let Some((name, number)) = row.iter().find(|(_, number)| !number.is_finite()) {
             return refuse(format!(

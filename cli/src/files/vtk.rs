@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::arrays::{Array, Values, code_names, codes, measures, points};
+use super::arrays::{Array, Values, code_names, codes, measures, points, vectors};
 use super::number_type::ByteOrder;
 use super::vtu::VERTEX;
 use crate::table::Table;
@@ -60,9 +60,11 @@ pub fn write_vtk(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     let mut data = vec![Array::unsigned("id", |i| table.id[i])];
     data.extend(codes(table));
     data.extend(measures(table));
+    data.extend(vectors(table));
     write!(to, "POINT_DATA {n}\nFIELD FieldData {}\n", data.len())?;
     for array in &data {
-        writeln!(to, "{} 1 {n} {}", array.name, type_name(&array.values))?;
+        let (name, components) = (array.name, array.components());
+        writeln!(to, "{name} {components} {n} {}", type_name(&array.values))?;
         block(array, to)?;
     }
     Ok(())

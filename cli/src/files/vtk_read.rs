@@ -8,7 +8,7 @@ use super::Columns;
 use super::number_type::{ByteOrder, NumberType};
 use crate::Error;
 
-/// Reads particles: points, and every point array of one component; others are left out. Integers with a field array
+/// Reads particles: points, every point array of one component, and `normal`; others are left out. Integers with a field array
 /// `NAME_names` become words. Memory grows with the bytes that are there, whatever they claim.
 ///
 /// # Errors
@@ -88,6 +88,21 @@ impl<'a> Reader<'a> {
                                 if section == Section::Points && components == 1 =>
                             {
                                 self.keep(&mut columns, name, numbers, count)?;
+                            }
+                            Values::Numbers(numbers)
+                                if section == Section::Points
+                                    && components == 3
+                                    && name == "normal" =>
+                            {
+                                for (axis, name) in ["nx", "ny", "nz"].into_iter().enumerate() {
+                                    let along = numbers.iter().skip(axis).step_by(3).copied();
+                                    self.keep(
+                                        &mut columns,
+                                        name.to_owned(),
+                                        along.collect(),
+                                        count,
+                                    )?;
+                                }
                             }
                             _ => {}
                         }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use super::arrays::{Array, Values, code_names, codes, measures, points};
+use super::arrays::{Array, Values, code_names, codes, measures, points, vectors};
 use super::number_type::ByteOrder;
 use crate::table::Table;
 
@@ -35,14 +35,19 @@ pub(super) fn write(table: &Table, grid: &Grid<'_>, to: &mut dyn Write) -> io::R
     let mut data = vec![Array::long("id", |i| i64::from(table.id[i]))];
     data.extend(codes(table));
     data.extend(measures(table));
+    data.extend(vectors(table));
 
     let mut offset = 0;
     let mut declare = |array: &Array<'_>| {
+        // Said of one number only where it must be: some readers make a table of one column of it.
+        let components = match array.components() {
+            1 => String::new(),
+            several => format!(" NumberOfComponents=\"{several}\""),
+        };
         let line = format!(
-            "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{offset}\"/>\n",
+            "<DataArray type=\"{}\" Name=\"{}\"{components} format=\"appended\" offset=\"{offset}\"/>\n",
             type_name(&array.values),
-            array.name,
-            array.components()
+            array.name
         );
         offset += 8 + n * array.size();
         line
@@ -52,12 +57,12 @@ pub(super) fn write(table: &Table, grid: &Grid<'_>, to: &mut dyn Write) -> io::R
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<{kind}>\n<FieldData>\n"
     );
     for (column, values) in code_names(table) {
-        if !values.is_empty() {
-            head += &names(&format!("{column}_names"), &values);
+        for (code, name) in values.iter().enumerate() {
+            head += &field(column, name, code);
         }
     }
     if !table.stop_reason.is_empty() {
-        head += &names("stop_reason", &[&table.stop_reason]);
+        head += &field("stop_reason", &table.stop_reason, 0);
     }
     let count = grid.count.replace("{n}", &n.to_string());
     let _ = write!(
@@ -96,17 +101,33 @@ fn type_name(values: &Values<'_>) -> &'static str {
     }
 }
 
-/// A field of strings, each letter by its number and each string ended by 0, as VTK wants them.
-fn names(name: &str, values: &[&str]) -> String {
-    let mut line = format!(
-        "<DataArray type=\"String\" Name=\"{name}\" NumberOfTuples=\"{}\" format=\"ascii\">\n",
-        values.len()
-    );
-    for value in values {
-        for byte in value.bytes() {
-            let _ = write!(line, "{byte} ");
+/// A field that says which number stands for a name: `kind:free` is 0. Not all readers know fields of strings.
+fn field(column: &str, name: &str, code: usize) -> String {
+    format!(
+        "<DataArray type=\"Int32\" Name=\"{column}:{}\" NumberOfTuples=\"1\" format=\"ascii\">{code}</DataArray>\n",
+        escaped(name)
+    )
+}
+
+/// A name as an attribute's value.
+fn escaped(name: &str) -> String {
+    let mut text = String::new();
+    for letter in name.chars() {
+        match letter {
+            '&' => text += "&amp;",
+            '<' => text += "&lt;",
+            '>' => text += "&gt;",
+            '"' => text += "&quot;",
+            other => text.push(other),
         }
-        line += "0\n";
     }
-    line + "</DataArray>\n"
+    text
+}
+
+/// A name from an attribute's value.
+pub(super) fn unescaped(value: &str) -> String {
+    (value.replace("&lt;", "<").replace("&gt;", ">"))
+        .replace("&quot;", "\"")
+        .replace("&apos;", "'")
+        .replace("&amp;", "&")
 }

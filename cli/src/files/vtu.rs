@@ -10,8 +10,8 @@ use crate::table::Table;
 pub(super) const VERTEX: u8 = 1;
 
 /// Writes particles, one vertex cell each. `kind`, `side` and `body` are integers; what they stand for is in the field
-/// data `kind_names`, `side_names` and `body_names` (`body` is −1 where there is none); `stop_reason` says whether the
-/// packing was finished. Takes one pass over the table and some kilobytes.
+/// data, one integer for each name: `kind:free` is 0, `body:wing` the wing's number (`body` is −1 where there is none); `stop_reason:…`
+/// says whether the packing was finished. `normal` and `velocity`, which is 0, are vectors. Takes one pass over the table and some kilobytes.
 ///
 /// # Errors
 /// Those of `to`; where a number is not finite, before anything is written.

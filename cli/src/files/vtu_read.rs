@@ -6,10 +6,11 @@ use std::path::Path;
 
 use super::Columns;
 use super::number_type::{ByteOrder, NumberType};
+use super::vtk_xml::unescaped;
 use crate::Error;
 
-/// Reads particles: points, and every point array of one component. Arrays of integers with a field array
-/// `NAME_names` become words.
+/// Reads particles: points, every point array of one component, and `normal`. Arrays of integers with fields `NAME:WORD`, or one
+/// `NAME_names`, become words.
 ///
 /// # Errors
 /// [`Error::Input`] where the file is damaged, or written in a way that is not read (compressed, base64, big-endian).
@@ -29,6 +30,9 @@ pub fn read_vtu(bytes: &[u8], path: &Path) -> Result<Columns, Error> {
 
 /// What the numbers of a column stand for, by its name.
 pub(super) type Names = BTreeMap<String, Vec<String>>;
+
+/// No file has so many bodies.
+const MOST_NAMES: usize = 1 << 20;
 
 const MARK: &[u8] = b"<AppendedData";
 
@@ -140,19 +144,16 @@ pub(super) fn visit<R: Read + Seek>(
                 let n = count.unwrap_or(0);
                 match section {
                     "FieldData" => {
-                        if let Some(column) = name.strip_suffix("_names") {
-                            names.insert(column.to_owned(), strings(content));
-                        }
+                        name_of_field(&unescaped(&name), content, &mut names);
                     }
                     "Points" => {
-                        let mut split = |points: &[f64]| {
-                            for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-                                let along = points.iter().skip(axis).step_by(3);
-                                take(name, &along.copied().collect::<Vec<f64>>());
-                            }
-                        };
-                        numbers(&tag, content, &mut appended, n, 3, &mut split)?;
+                        let mut points = |points: &[f64]| split(points, ["x", "y", "z"], take);
+                        numbers(&tag, content, &mut appended, n, 3, &mut points)?;
                         has_points = true;
+                    }
+                    "PointData" if name == "normal" && tag.get("NumberOfComponents") == "3" => {
+                        let mut normals = |all: &[f64]| split(all, ["nx", "ny", "nz"], take);
+                        numbers(&tag, content, &mut appended, n, 3, &mut normals)?;
                     }
                     "PointData" if matches!(tag.get("NumberOfComponents"), "" | "1") => {
                         let mut whole = |piece: &[f64]| take(&name, piece);
@@ -173,6 +174,37 @@ pub(super) fn visit<R: Read + Seek>(
         return Err(damaged("it has no points"));
     }
     Ok(names)
+}
+
+/// Gives away points, or vectors, axis by axis.
+fn split(points: &[f64], names: [&str; 3], take: &mut dyn FnMut(&str, &[f64])) {
+    for (axis, name) in names.into_iter().enumerate() {
+        let along = points.iter().skip(axis).step_by(3);
+        take(name, &along.copied().collect::<Vec<f64>>());
+    }
+}
+
+/// Names of a field: `COLUMN:NAME` is the number that stands for it, `COLUMN_names` are all names in order.
+fn name_of_field(field: &str, content: &str, names: &mut Names) {
+    if let Some(column) = field.strip_suffix("_names") {
+        names.insert(column.to_owned(), strings(content));
+    }
+    let Some((column, name)) = field.split_once(':') else {
+        return;
+    };
+    let Some(code) = content
+        .trim()
+        .parse::<usize>()
+        .ok()
+        .filter(|&code| code < MOST_NAMES)
+    else {
+        return;
+    };
+    let all = names.entry(column.to_owned()).or_default();
+    if all.len() <= code {
+        all.resize(code + 1, String::new());
+    }
+    all[code] = name.to_owned();
 }
 
 fn damaged(what: &str) -> String {

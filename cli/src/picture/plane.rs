@@ -143,7 +143,7 @@ pub(super) fn sheet(subject: &Subject<'_>) -> Sheet {
             sheet.marks.push(particle(
                 rank,
                 view.place([x, y]),
-                zoom * table.spacing_of(i, subject.spacing),
+                zoom * table.spacing_of(i),
                 scale.colour(table.gamma[i]),
                 rim,
             ));

@@ -107,7 +107,7 @@ pub(super) fn add(
     };
     let table = subject.table;
     // Particles of a slice overlap: it is a spacing thick, and a lattice has several layers in that.
-    let own = |i: usize| table.spacing_of(i, subject.spacing);
+    let own = |i: usize| table.spacing_of(i);
     let is_near = |i: usize| {
         let p = table.position[i];
         (p[cut.axis] - cut.at).abs() < 0.5 * own(i)

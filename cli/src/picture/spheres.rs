@@ -91,7 +91,7 @@ fn seen(subject: &Subject<'_>, scale: Scale, shown: &[usize], size: usize) -> Ca
     let light = point::unit([-0.45, 0.55, 0.9]).unwrap_or([0.0, 0.0, 1.0]);
     let mut depth = vec![f64::NEG_INFINITY; size * size];
     for (p, &i) in placed.iter().zip(shown) {
-        let radius = RADIUS * table.spacing_of(i, subject.spacing);
+        let radius = RADIUS * table.spacing_of(i);
         let colour = scale.colour(table.gamma[i]);
         let center = [
             0.5 * size as f64 + zoom * (p[0] - middle[0]),

@@ -130,7 +130,7 @@ fn a_cylinder_with_every_file() {
     let (header, rows) = rows(desk.read("out.csv"));
     assert_eq!(
         header,
-        "id,x,y,kind,side,body,volume,mass,gamma,residual,nx,ny"
+        "id,x,y,kind,side,body,volume,mass,density,h,spacing,gamma,residual,nx,ny"
     );
     assert_eq!(rows.len(), number("total"));
     for kind in kinds {
@@ -141,7 +141,7 @@ fn a_cylinder_with_every_file() {
     }
     for row in &rows {
         let [x, y, nx, ny] =
-            [1, 2, 10, 11].map(|k: usize| row[k].parse::<f64>().expect("a number"));
+            [1, 2, 13, 14].map(|k: usize| row[k].parse::<f64>().expect("a number"));
         if row[3] == "boundary" {
             assert_eq!([&row[4], &row[5]], ["solid", "cylinder"]);
             assert!((x.hypot(y) - 0.9).abs() < 1e-9, "on the inset circle");
@@ -204,7 +204,7 @@ include = [\"free\", \"boundary\", \"fixed\"]
     let (header, rows) = rows(desk.read("s.csv"));
     assert_eq!(
         header,
-        "id,x,y,z,kind,side,body,volume,mass,gamma,residual,nx,ny,nz"
+        "id,x,y,z,kind,side,body,volume,mass,density,h,spacing,gamma,residual,nx,ny,nz"
     );
     assert!(rows.iter().all(|row| row[4] != "frozen"));
     let mass_over_volume = |row: &Vec<String>| {

@@ -256,9 +256,6 @@ file that share a side, a part of one, an edge or a point, or are flush at their
 pipes with flanges or fins, cones, needles, sharp rings and cups, at 1/25 to 1/50 of the diagonal. *Giants* are 10 to 10⁵ ∆s large in a box of 7 to 12 ∆s, two in five with a
 ball that cuts them or is cut by them.
 
-What is wrong among the thin are watertight plates with a hole a little larger than that, at a rim, or where a plate is just one
-spacing thick and a particle is missing from its layer.
-
 Small and narrow parts that would not settle evenly with as many particles as lengths and volumes ask for get counts that were
 tried out (`packing/src/methods/balanced/tried.rs`): with the usual ones 22 of the 40 packings of sixteen squares are even, with those 40. What is
 still not even is coarse, and almost all of it lies in the fluid between sides that are a half-odd number of ∆s apart, and in narrow pockets: what a wall

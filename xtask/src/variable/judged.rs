@@ -30,7 +30,7 @@ impl Judged {
         let free = |i: usize| table.kind[i] == Kind::Free;
         let mut size_over_asked = [f64::INFINITY, 0.0_f64];
         for i in (0..table.len()).filter(|&i| free(i)) {
-            let ratio = size[i] / table.spacing_of(i, outcome.report.spacing);
+            let ratio = size[i] / table.spacing_of(i);
             size_over_asked = [size_over_asked[0].min(ratio), size_over_asked[1].max(ratio)];
         }
         Self {

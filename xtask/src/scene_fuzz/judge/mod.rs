@@ -92,7 +92,8 @@ impl Scene<'_> {
 
     /// Whether particles differ in size.
     fn is_graded(&self) -> bool {
-        self.rows.iter().any(|row| row.spacing.is_some())
+        let first = self.rows.first().and_then(|row| row.spacing);
+        self.rows.iter().any(|row| row.spacing != first)
     }
 
     fn volume(&self) -> f64 {
