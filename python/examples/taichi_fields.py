@@ -20,7 +20,7 @@ def main():
 
     @ti.kernel
     def weigh() -> ti.f64:
-        total = 0.0
+        total = ti.cast(0.0, ti.f64)
         for i in position:
             if position[i].norm() < 1.0:
                 total += mass[i]

@@ -13,7 +13,7 @@ from . import _native
 from ._errors import InputError
 
 KINDS = ("free", "boundary", "fixed", "frozen")
-SIDES = ("fluid", "solid")
+SIDES = ("solid", "fluid")
 
 _LISTS = ("position", "normal")
 
@@ -121,7 +121,7 @@ class Particles:
 
     @property
     def side_code(self) -> NDArray[np.uint8]:
-        """0 fluid, 1 solid."""
+        """0 solid, 1 fluid."""
         return self._columns["side"]
 
     @property

@@ -17,9 +17,11 @@ pub(crate) fn to_python<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'p
     } else {
         (0..table.len()).flat_map(|i| table.normal(i)).collect()
     };
-    let kind: Vec<u8> = table.kind.iter().map(|&kind| number_of(kind)).collect();
+    let kind: Vec<u8> = (table.kind.iter())
+        .map(|&kind| place(&Kind::ALL, kind))
+        .collect();
     let side: Vec<u8> = (table.side.iter())
-        .map(|&side| u8::from(side == Side::Solid))
+        .map(|&side| place(&Side::ALL, side))
         .collect();
     let body: Vec<i32> = (table.body.iter())
         .map(|body| body.map_or(-1, i32::from))
@@ -52,9 +54,25 @@ pub(crate) fn to_python<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'p
     Ok(columns)
 }
 
-/// The place of a kind in [`Kind::ALL`].
-fn number_of(kind: Kind) -> u8 {
-    (Kind::ALL.iter().position(|&other| other == kind)).unwrap_or_default() as u8
+/// The number of a kind or a side, as in files.
+fn place<T: PartialEq>(all: &[T], one: T) -> u8 {
+    all.iter()
+        .position(|other| *other == one)
+        .unwrap_or_default() as u8
+}
+
+/// The kinds or sides that some numbers stand for.
+fn named<T: Copy>(py: Python<'_>, all: &[T], numbers: Vec<u8>, name: &str) -> PyResult<Vec<T>> {
+    (numbers.into_iter())
+        .map(|number| all.get(usize::from(number)).copied())
+        .collect::<Option<_>>()
+        .ok_or_else(|| {
+            let most = all.len() - 1;
+            wrong(
+                py,
+                &format!("{name} has numbers that are none; there are 0 to {most}"),
+            )
+        })
 }
 
 /// The columns of [`to_python`] as a table again.
@@ -74,13 +92,8 @@ pub(crate) fn from_python(
     let normals: HashMap<u32, [f64; 3]> = (id.iter().copied().zip(points("normal")?))
         .filter(|(_, normal)| *normal != [0.0; 3])
         .collect();
-    let kind = (column::<u8>(columns, "kind")?.into_iter())
-        .map(|kind| Kind::ALL.get(usize::from(kind)).copied())
-        .collect::<Option<Vec<Kind>>>()
-        .ok_or_else(|| wrong(py, "kind has numbers that are none; there are 0 to 3"))?;
-    let side = (column::<u8>(columns, "side")?.into_iter())
-        .map(|side| if side == 0 { Side::Fluid } else { Side::Solid })
-        .collect();
+    let kind = named(py, &Kind::ALL, column(columns, "kind")?, "kind")?;
+    let side = named(py, &Side::ALL, column(columns, "side")?, "side")?;
     let body = (column::<i32>(columns, "body")?.into_iter())
         .map(|body| u16::try_from(body).ok())
         .collect();
