@@ -221,6 +221,9 @@ class Particles:
             middle = 0.5 * (position[:, 2].min() + position[:, 2].max())
             shown = np.abs(position[:, 2] - middle) <= 0.5 * self.spacing
         style.setdefault("s", 4)
+        if by == "gamma" and not {"vmin", "vmax", "norm"} & set(style):
+            most = float(np.nanmax(np.abs(values - 1.0), initial=0.0))
+            style = {"cmap": "RdBu_r", "vmin": 1.0 - most, "vmax": 1.0 + most, **style}
         drawn = ax.scatter(position[shown, 0], position[shown, 1], c=values[shown], **style)
         ax.set_aspect("equal")
         ax.set(xlabel="x", ylabel="y")
