@@ -23,7 +23,6 @@ use crate::report::{
 };
 use crate::scene::{Masses, Role, Scene};
 use crate::solution::{Packing, Solution};
-use crate::surroundings::surrounded;
 use crate::table::{Shared, Table};
 use crate::{content, corrected};
 
@@ -53,20 +52,6 @@ pub struct Outcome {
     pub read: Vec<ReadBody>,
     /// The figures, dimension forgotten.
     pub report: Report,
-}
-
-impl Outcome {
-    /// What files hold: those of the table's particles whose kind the scene includes, and the surroundings that it asks for.
-    #[must_use]
-    pub fn included(&self, table: Table, scene: &Scene) -> Table {
-        let kinds = table.kind.clone();
-        let rows = table.kept(|i| scene.includes(kinds[i]));
-        drop(kinds);
-        match &scene.output.surroundings {
-            Some(box_around) => surrounded(rows, self, scene, box_around),
-            None => rows,
-        }
-    }
 }
 
 /// Packs a scene. Reads the bodies' files, writes nothing.

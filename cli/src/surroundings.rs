@@ -1,4 +1,4 @@
-//! The lattice around a packed domain, out to a larger box (Negi & Ramachandran 2021, fig. 3).
+//! What files hold of a packing; and the lattice around its domain, out to a larger box (Negi & Ramachandran 2021, fig. 3).
 
 use sphpack_neighbors::{Bounds, point};
 use sphpack_packing::{Kind, Packed};
@@ -9,14 +9,23 @@ use crate::scene::{Scene, Surroundings};
 use crate::solution::Packing;
 use crate::table::Table;
 
+impl Outcome {
+    /// What files hold: those of the table's particles whose kind the scene includes, and the surroundings that it asks for.
+    #[must_use]
+    pub fn included(&self, table: Table, scene: &Scene) -> Table {
+        let kinds = table.kind.clone();
+        let rows = table.kept(|i| scene.includes(kinds[i]));
+        drop(kinds);
+        match &scene.output.surroundings {
+            Some(box_around) => surrounded(rows, self, scene, box_around),
+            None => rows,
+        }
+    }
+}
+
 /// The particles of `rows` and, in place of the frozen ones, their lattice on to the sides of the larger box: fluid that
 /// never moved.
-pub(crate) fn surrounded(
-    mut rows: Table,
-    outcome: &Outcome,
-    scene: &Scene,
-    around: &Surroundings,
-) -> Table {
+fn surrounded(mut rows: Table, outcome: &Outcome, scene: &Scene, around: &Surroundings) -> Table {
     if rows.kind.contains(&Kind::Frozen) {
         rows = rows.filtered(|i| rows.kind[i] != Kind::Frozen);
     }
