@@ -4,6 +4,7 @@ use sphpack_packing::Kind;
 use sphpack_separation::Side;
 
 use super::*;
+use crate::table::Shared;
 
 mod letters;
 mod pixels;
@@ -18,6 +19,10 @@ fn lattice(dimension: usize, across: usize) -> Table {
     let mut table = Table {
         dimension,
         bodies: vec!["body".into()],
+        shared: Shared {
+            spacing: 0.1,
+            ..Shared::default()
+        },
         ..Table::default()
     };
     let depth = if dimension == 2 { 1 } else { across };
