@@ -218,23 +218,28 @@ fn little_memory_for_measuring_is_no_abort() {
 #[test]
 fn limits_of_files_are_kept() {
     let finer = CYLINDER.replace("spacing = 0.2", "spacing = 0.1");
+    let free = Desk::new().with("scene.toml", &*finer);
+    free.succeed(&["pack", "scene.toml", "-q", "-o", "a.ply", "-o", "b.csv"]);
+    let [binary, text] = ["a.ply", "b.csv"].map(|name| free.read(name).len());
     let desk = Desk::new().with("scene.toml", finer).with("b.csv", "old");
-    let outputs = ["-o", "a.vtu", "-o", "b.csv"];
+    let outputs = ["-o", "a.ply", "-o", "b.csv"];
     let arguments = [&["pack", "scene.toml", "-q", "--force"], &outputs[..]].concat();
     let (status, said) = limited(&desk, "ulimit -f 1", &arguments);
     assert_eq!(status, Some(1), "{said}");
-    for part in ["cannot write a.vtu", "ulimit -f"] {
+    for part in ["cannot write a.ply", "ulimit -f"] {
         assert!(said.contains(part), "{said}");
     }
     assert_eq!(desk.files(), ["b.csv", "scene.toml"]);
     // Longer than the binary file, shorter than the text.
-    let (status, said) = limited(&desk, "ulimit -f 200", &arguments);
+    let kibibytes = (binary + text) / 2 / 1024;
+    assert!(binary < 1024 * kibibytes && 1024 * kibibytes < text);
+    let (status, said) = limited(&desk, &format!("ulimit -f {kibibytes}"), &arguments);
     assert_eq!(status, Some(1), "{said}");
-    for part in ["cannot write b.csv", "kept as a.rescued.vtu"] {
+    for part in ["cannot write b.csv", "kept as a.rescued.ply"] {
         assert!(said.contains(part), "{said}");
     }
     assert_eq!(desk.read("b.csv"), b"old");
-    assert_eq!(desk.files(), ["a.rescued.vtu", "b.csv", "scene.toml"]);
+    assert_eq!(desk.files(), ["a.rescued.ply", "b.csv", "scene.toml"]);
 }
 
 #[cfg(target_os = "linux")]
