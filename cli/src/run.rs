@@ -158,13 +158,13 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
     } = solution;
     let particles = &packed.particles;
     let all = 0..particles.len();
-    let rest_density = |i: usize| match labels.body[i] {
-        Some(body) => scene
-            .body
-            .get(usize::from(body))
-            .map_or(1.0, |body| body.density),
-        None => scene.fluid.density,
+    let solids = scene.body.iter().map(|body| body.density);
+    let shared = Shared {
+        spacing: packed.spacing,
+        smoothing_length: scene.judge().1 * packed.spacing,
+        density: solids.chain([scene.fluid.density]).collect(),
     };
+    let rest_density = |i: usize| shared.density_of(labels.body[i]);
     let at_rest: Vec<AtRest> = (scene.fluid.hydrostatic.iter())
         .flat_map(|hydrostatic| {
             all.clone().map(|i| match labels.side[i] {
@@ -196,7 +196,6 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             })
             .collect()
     };
-    let solids = scene.body.iter().map(|body| body.density);
     Table {
         dimension: D,
         stop_reason: packed.stop_reason.name().to_owned(),
@@ -228,11 +227,7 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
         density: at_rest.iter().map(|rest| rest.density).collect(),
         spacing: sizes(&|i| particles.sizes.spacing(i)),
         smoothing_length: sizes(&|i| fields.sizes.smoothing_length(i)),
-        shared: Shared {
-            spacing: packed.spacing,
-            smoothing_length: scene.judge().1 * packed.spacing,
-            density: solids.chain([scene.fluid.density]).collect(),
-        },
+        shared,
     }
 }
 

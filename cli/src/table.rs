@@ -57,6 +57,15 @@ pub struct Shared {
     pub density: Vec<f64>,
 }
 
+impl Shared {
+    /// The density of a body, or of the fluid, at rest; 0 where nobody says.
+    pub fn density_of(&self, body: Option<u16>) -> f64 {
+        let fluid = self.density.len().saturating_sub(1);
+        let place = body.map_or(fluid, usize::from);
+        self.density.get(place).copied().unwrap_or(0.0)
+    }
+}
+
 /// Entries that a column is to keep, in their order.
 struct Picked<'a> {
     order: &'a [u32],
@@ -152,13 +161,8 @@ impl Table {
 
     /// Its density: at its pressure, or at rest; 0 where nobody says.
     pub fn density_of(&self, i: usize) -> f64 {
-        let of_material = || {
-            let all = &self.shared.density;
-            let fluid = all.len().saturating_sub(1);
-            let place = self.body[i].map_or(fluid, usize::from);
-            all.get(place).copied().unwrap_or(0.0)
-        };
-        self.density.get(i).copied().unwrap_or_else(of_material)
+        let own = self.density.get(i).copied();
+        own.unwrap_or_else(|| self.shared.density_of(self.body[i]))
     }
 
     /// The outward unit normal at particle `i`; 0 where it is on no surface.

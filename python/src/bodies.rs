@@ -11,7 +11,7 @@ use sphpack::prelude::{Closest, Surface};
 use sphpack::{Error, Examine, Examined, Mend, body_format};
 
 use crate::columns::points;
-use crate::errors::{exception, raised, wrong};
+use crate::errors::{raised, wrong};
 
 /// Queries that one thread takes at a time, at least.
 const AT_ONCE: usize = 256;
@@ -152,7 +152,7 @@ impl Body {
     fn sample<'py>(&self, py: Python<'py>, count: usize) -> PyResult<(Flat<'py>, Flat<'py>)> {
         with_surface!(self, surface => {
             let hits = py.detach(|| surface.sample(count));
-            let hits = hits.map_err(|e| exception(py, &e.to_string(), sphpack::BAD_INPUT))?;
+            let hits = hits.map_err(|e| wrong(py, &e.to_string()))?;
             Ok((
                 PyArray1::from_vec(py, hits.iter().flat_map(|hit| hit.point).collect()),
                 PyArray1::from_vec(py, hits.iter().flat_map(|hit| hit.normal).collect()),

@@ -8,7 +8,7 @@ pub(crate) fn raised(py: Python<'_>, error: &sphpack::Error) -> PyErr {
 }
 
 /// An exception with the command's exit status for it.
-pub(crate) fn exception(py: Python<'_>, message: &str, status: u8) -> PyErr {
+fn exception(py: Python<'_>, message: &str, status: u8) -> PyErr {
     let class = if status == sphpack::BAD_INPUT {
         "InputError"
     } else {

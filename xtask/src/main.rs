@@ -16,6 +16,7 @@ mod crystal;
 mod dial;
 mod draw;
 mod drawing;
+mod environment;
 mod figures;
 mod flow;
 mod front;

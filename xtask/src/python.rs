@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::arguments::Arguments;
+use crate::environment::{environment, said};
 use crate::workspace::root;
 
 /// The oldest Python that the package is for.
@@ -80,30 +81,6 @@ fn python() -> Option<PathBuf> {
         let answer = Command::new(name).args(["-c", &asked]).output();
         answer.is_ok_and(|answer| answer.status.success())
     })
-}
-
-/// The Python of an environment with some packages; `None`, which is said, where they cannot be had.
-fn environment(python: &Path, folder: &Path, packages: &[&str]) -> Result<Option<PathBuf>, String> {
-    let own = folder.join(if cfg!(windows) {
-        "Scripts/python.exe"
-    } else {
-        "bin/python"
-    });
-    if !own.exists() {
-        said(Command::new(python).args(["-m", "venv"]).arg(folder))?;
-    }
-    let install = [
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--disable-pip-version-check",
-    ];
-    if said(Command::new(&own).args(install).args(packages)).is_err() {
-        eprintln!("── {} cannot be had: left out", packages.join(", "));
-        return Ok(None);
-    }
-    Ok(Some(own))
 }
 
 /// The library that cargo has built, beside this program, and its name as a module.
@@ -191,23 +168,4 @@ fn wheel(python: &Path, home: &Path) -> Result<(), String> {
     let bytes = fs::metadata(&wheel).map_or(0, |meta| meta.len());
     eprintln!("── {name}, {:.1} MiB", bytes as f64 / 1_048_576.0);
     Ok(())
-}
-
-/// Runs a command, saying which.
-fn said(command: &mut Command) -> Result<(), String> {
-    let words: Vec<_> = (command.get_args())
-        .map(|word| word.to_string_lossy())
-        .collect();
-    let program = Path::new(command.get_program())
-        .file_name()
-        .unwrap_or_default();
-    let line = format!("{} {}", program.to_string_lossy(), words.join(" "));
-    eprintln!("── {line}");
-    let status = command.status();
-    let status = status.map_err(|error| format!("{line} cannot be started: {error}"))?;
-    if status.success() {
-        Ok(())
-    } else {
-        Err(format!("{line} failed"))
-    }
 }

@@ -10,6 +10,7 @@ use sphpack::{Options, Scene, run as pack};
 use sphpack_packing::Silent;
 
 use crate::arguments::Arguments;
+use crate::environment::{environment, said};
 use crate::workspace::root;
 
 /// What the script needs besides Python.
@@ -88,26 +89,17 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let script = root().join("xtask/round_trip.py");
     let mut command = Command::new(&python);
     command.arg(script).arg(&folder);
-    finish(&mut command)
+    said(&mut command)
 }
 
 /// An interpreter that has the packages.
 fn python(settings: &Settings, folder: &Path) -> Result<PathBuf, String> {
-    let environment = folder.join("venv");
-    let own = ["bin/python", "Scripts/python.exe"].map(|program| environment.join(program));
+    let home = folder.join("venv");
+    let own = ["bin/python", "Scripts/python.exe"].map(|program| home.join(program));
     let there = || own.iter().find(|program| program.is_file()).cloned();
     if settings.install {
-        finish(
-            Command::new("python3")
-                .args(["-m", "venv"])
-                .arg(&environment),
-        )?;
-        let python = there().ok_or("python3 -m venv has made no interpreter")?;
-        finish(
-            Command::new(python)
-                .args(["-m", "pip", "install", "--quiet"])
-                .args(PACKAGES),
-        )?;
+        let made = environment(Path::new("python3"), &home, &PACKAGES)?;
+        return made.ok_or_else(|| "the packages cannot be had".to_owned());
     }
     let python = (settings.python.clone())
         .or_else(there)
@@ -138,7 +130,7 @@ fn python(settings: &Settings, folder: &Path) -> Result<PathBuf, String> {
         "{} lacks {}; name another with --python PROGRAM, or let --install put them into {}",
         python.display(),
         missing.join(", "),
-        environment.display()
+        home.display()
     ))
 }
 
@@ -158,13 +150,4 @@ fn write(name: &str, text: &str, folder: &Path) -> Result<(), String> {
     }
     println!("{name}: {} particles", rows.len());
     Ok(())
-}
-
-fn finish(command: &mut Command) -> Result<(), String> {
-    let shown = format!("{command:?}");
-    match command.status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(format!("{shown}: {status}")),
-        Err(error) => Err(format!("{shown}: {error}")),
-    }
 }

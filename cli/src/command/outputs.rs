@@ -5,7 +5,7 @@ use std::io;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use crate::Error;
-use crate::files::AtomicFiles;
+use crate::files::{AtomicFiles, refuse_taken};
 
 /// Refuses what cannot be the name of a file, whatever its format and wherever it is.
 pub(super) fn check_name(path: &Path) -> Result<(), Error> {
@@ -58,7 +58,7 @@ pub(super) fn check(
                 "this file is an input too; give the output another name",
             ));
         }
-        refuse_taken(path, may_replace)?;
+        refuse_taken(path, may_replace, "--force to replace it")?;
         AtomicFiles::try_folder(path).map_err(|e| {
             let folder = shown(path);
             Error::input(
@@ -107,30 +107,4 @@ fn home(path: &Path) -> Result<PathBuf, Error> {
             shown(path)
         )),
     }
-}
-
-/// Refuses a name that is taken, or that no file can have.
-fn refuse_taken(path: &Path, may_replace: bool) -> Result<(), Error> {
-    let refuse = |message: String| Err(Error::input(path, message));
-    let meta = match fs::symlink_metadata(path) {
-        Ok(meta) => meta,
-        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
-        Err(e) if e.kind() == io::ErrorKind::InvalidFilename => {
-            return refuse("the name is too long for the file system; give a shorter one".into());
-        }
-        Err(e) => return refuse(format!("no file can have this name ({e}); give another")),
-    };
-    // Also where it is a link to one.
-    if path.is_dir() {
-        return refuse("this is a folder; give the name of a file in it".into());
-    }
-    if !meta.is_file() && !meta.is_symlink() {
-        return refuse(
-            "this is a pipe or a device, which is not replaced; give the name of a file".into(),
-        );
-    }
-    if !may_replace {
-        return refuse("the file exists; give another name, or --force to replace it".into());
-    }
-    Ok(())
 }

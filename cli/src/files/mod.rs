@@ -21,6 +21,7 @@ mod ply;
 mod ply_read;
 mod read_back;
 mod size_limit;
+mod taken;
 mod temporary;
 #[cfg(test)]
 mod tests;
@@ -50,6 +51,7 @@ pub use npz_read::read_npz;
 pub use ply::write_ply;
 pub use ply_read::read_ply;
 pub(crate) use read_back::compare;
+pub(crate) use taken::refuse_taken;
 pub(crate) use temporary::forget_unfinished;
 pub use vtk::write_vtk;
 pub use vtk_read::read_vtk;
@@ -61,16 +63,11 @@ pub use vtu_read::read_vtu;
 /// should. `may_replace`: whether a file that exists may be replaced.
 ///
 /// # Errors
-/// [`Error::Input`] for an ending that is none of [`PARTICLE_FORMATS`], and where there is a file that may not be replaced;
+/// [`Error::Input`] for an ending that is none of [`PARTICLE_FORMATS`], and where the name is taken by what may not be replaced;
 /// [`Error::Write`].
 pub fn save(table: &Table, path: &Path, may_replace: bool) -> Result<(), Error> {
     let format = ParticleFormat::of(path)?;
-    if !may_replace && path.exists() {
-        return Err(Error::input(
-            path,
-            "the file exists; give another name, or let it be replaced",
-        ));
-    }
+    refuse_taken(path, may_replace, "let it be replaced")?;
     let mut files = AtomicFiles::new(may_replace);
     files.write_and_check(
         path,

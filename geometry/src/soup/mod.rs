@@ -14,7 +14,7 @@ mod repair;
 mod report;
 mod shells;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod triangulate;
 mod wrap;
 mod write;

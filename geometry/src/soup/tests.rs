@@ -22,7 +22,7 @@ pub(super) fn ball(levels: usize, r: f64, c: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
 }
 
 /// A box's twelve triangles, facing out.
-pub(super) fn cuboid(min: [f64; 3], max: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
+pub(crate) fn cuboid(min: [f64; 3], max: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
     let corner = |k: usize| std::array::from_fn(|a| if k >> a & 1 == 1 { max[a] } else { min[a] });
     [
         [0, 2, 3, 1],

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use sphpack_neighbors::point;
 
 use super::{SurfaceSamples, Thin, sample_particles, sample_thin};
+use crate::soup::tests::cuboid;
 use crate::surface::{Feature, Surface};
 use crate::{Ball, Cuboid, Ellipsoid, Mesh, Outline, Placed, Similarity, Torus, thickness};
 
@@ -424,7 +425,7 @@ fn watertight_plates_have_no_holes() {
             0.02 + 0.98 * part(2)
         };
         let edges = [8.0 + 5.0 * part(0), 8.0 + 5.0 * part(1), thick];
-        let plate = Mesh::from_loose(&block(edges)).unwrap();
+        let plate = Mesh::from_loose(&cuboid([0.0; 3], edges)).unwrap();
         let inset = plate.inset(0.5).ok();
         let found = sample_thin(&plate, inset.as_deref(), 1.0, 0.5, Thin::Watertight).unwrap();
         let points = all_points(&found);
@@ -443,26 +444,4 @@ fn watertight_plates_have_no_holes() {
         let far = farthest(edges, &points);
         assert!(far < 0.85, "{number}: {far}");
     }
-}
-
-/// A block with its lower corner at the origin.
-fn block(edges: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
-    let corner =
-        |k: usize| -> [f64; 3] { std::array::from_fn(|axis| edges[axis] * (k >> axis & 1) as f64) };
-    [
-        [0, 2, 3],
-        [0, 3, 1],
-        [4, 5, 7],
-        [4, 7, 6],
-        [0, 1, 5],
-        [0, 5, 4],
-        [2, 6, 7],
-        [2, 7, 3],
-        [0, 4, 6],
-        [0, 6, 2],
-        [1, 3, 7],
-        [1, 7, 5],
-    ]
-    .map(|triangle| triangle.map(corner))
-    .to_vec()
 }

@@ -65,8 +65,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             "# What should not matter, and what a kernel leaves\n\n\
              The balanced method with its defaults. Rows that miss are known, and a row that changes its verdict fails the task. Not known yet is why\n\
              thin sections differ by more than the bar. In space short kernels, Wendland's most, leave much more around a ball of three spacings' radius\n\
-             than without it: the default `levelling` is too weak there. A stronger one, 100 or 300, takes most of them down to about the floor, for\n\
-             two to seven times the evaluations. Regenerate with `cargo xtask stability steady --write`.\n\n\
+             than without it: the default `levelling` is too weak there, a stronger one comes nearer to the floor, for more evaluations. Regenerate with `cargo xtask stability steady --write`.\n\n\
              ## Where the lattice lies, which way, the seed, the units\n\n{}\n\
              ## Every kernel at every h/∆s\n\n{}",
             draws.text, floors.text
