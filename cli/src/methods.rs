@@ -28,13 +28,13 @@ where
     match packing.method {
         // Settings of "auto" are picked when the scene is opened.
         Method::Balanced | Method::Auto => Box::new(Balanced {
-            settling: packing.settling(),
+            settling: packing.settling_in(D),
             band: packing.band(),
         }),
         Method::Hybrid => Box::new(packing.hybrid.apply(Hybrid {
             velocity_tolerance: packing.velocity_tolerance,
             max_iterations,
-            settling: packing.minimiser.map(|_| packing.settling()),
+            settling: packing.minimiser.map(|_| packing.settling_in(D)),
             ..Hybrid::default()
         })),
         Method::Standard => Box::new(Standard {
@@ -63,7 +63,7 @@ where
         Method::Relaxation => Box::new(relaxation(packing)),
         Method::Complex => Box::new(Complex {
             relaxation: relaxation(packing),
-            levelling: packing.settling().levelling,
+            levelling: packing.settling_in(D).levelling,
             ..Complex::default()
         }),
     }

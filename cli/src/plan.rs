@@ -120,7 +120,7 @@ where
     Space<D>: Dimension<D>,
 {
     let picked = opened.picked.clone();
-    let evaluations = opened.scene.typical_evaluations();
+    let evaluations = opened.scene.typical_evaluations(D);
     let (prepared, estimate) = prepare::<D>(opened, allowed_bytes)?;
     methods::check(&prepared.problem, &prepared.resolved)?;
     let names = prepared.resolved.body.into_iter().map(|body| body.name);
@@ -272,7 +272,7 @@ where
     let moves = match scene.packing.method.info().moves {
         Moves::Nothing => 0.0,
         Moves::Band => {
-            (scene.packing.band()).first_width(&problem, scene.packing.settling().finish)
+            (scene.packing.band()).first_width(&problem, scene.packing.settling_in(D).finish)
         }
         Moves::All => f64::INFINITY,
     };
@@ -314,7 +314,7 @@ where
     resolved.domain.max = Some(domain.bounds.max.to_vec());
     resolved.domain.periodic = Some(domain.periodic.to_vec());
     resolved.packing.lattice = Some(problem.chosen_lattice());
-    let settling = scene.packing.settling();
+    let settling = scene.packing.settling_in(D);
     resolved.packing.kernel = Some(problem.kernel);
     resolved.packing.h_over_spacing = Some(problem.h_over_spacing);
     resolved.packing.residual_tolerance = Some(settling.tolerance());

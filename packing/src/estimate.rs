@@ -80,7 +80,7 @@ const SEEN_BYTES: f64 = 200.0;
 /// allocator keeps of earlier arrays below 32 MiB, which as many particles as in the last line fill. Peaks of 100,000
 /// to 2,000,000 particles that never moved took, beside writing, 286 … 215 a particle in the plane, 270 … 450 in
 /// space; 45,000,000 took 180.
-const COLUMN_BYTES: [f64; 2] = [140.0, 180.0];
+const COLUMN_BYTES: [f64; 2] = [150.0, 210.0];
 const HELD_BYTES: [f64; 2] = [120.0, 190.0];
 const MOST_HELD: f64 = 1.4e6;
 

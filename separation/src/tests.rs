@@ -3,10 +3,17 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use sphpack_geometry::{Ball, Cuboid, Ellipsoid, Outline, Surface, Torus};
-use sphpack_neighbors::random::Congruential;
+use sphpack_geometry::{Ball, Cuboid, Ellipsoid, Outline, Repeated, Surface, Torus};
+use sphpack_neighbors::{Domain, random::Congruential};
 
 use crate::{SeparationError, Side, separate, separate_by_flood, separate_with_on_surface};
+
+/// A ball with images, which are far outside of its box.
+fn repeated<const D: usize>() -> Arc<dyn Surface<D>> {
+    let ball = Ball::new([0.1; D], 0.3).expect("a sound ball");
+    let cell = Domain::new([-0.5; D], [0.5; D]).with_periodic([true; D]);
+    Arc::new(Repeated::new(Arc::new(ball), &cell))
+}
 
 fn bodies_2d() -> Vec<Arc<dyn Surface<2>>> {
     let wedge = |degrees: f64| {
@@ -25,6 +32,7 @@ fn bodies_2d() -> Vec<Arc<dyn Surface<2>>> {
         Arc::new(ring.expect("a sound ring")),
         Arc::new(Outline::starfish([0.0; 2], 0.5, 0.25, 5).expect("a sound starfish")),
         Arc::new(Outline::naca("0012", 1.2).expect("a sound airfoil")),
+        repeated(),
     ]
 }
 
@@ -34,6 +42,7 @@ fn bodies_3d() -> Vec<Arc<dyn Surface<3>>> {
         Arc::new(Cuboid::new([-0.5; 3], [0.4, 0.6, 0.5]).expect("a sound box")),
         Arc::new(Ellipsoid::new([0.0; 3], [0.7, 0.4, 0.3]).expect("a sound ellipsoid")),
         Arc::new(Torus::new([0.0; 3], [0.0, 0.0, 1.0], 0.5, 0.2).expect("a sound torus")),
+        repeated(),
     ]
 }
 

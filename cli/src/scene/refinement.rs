@@ -81,10 +81,10 @@ impl Scene {
     }
 
     /// Evaluations until particles are at rest, or until no more are allowed, in the middle of what scenes take.
-    pub fn typical_evaluations(&self) -> f64 {
+    pub fn typical_evaluations(&self, dimension: usize) -> f64 {
         match self.refinement {
             Some(_) => EVALUATIONS.min(self.packing.max_iterations as f64),
-            None => self.packing.typical_evaluations(),
+            None => self.packing.typical_evaluations(dimension),
         }
     }
 

@@ -178,9 +178,12 @@ fn the_template_packs_and_knows_every_key() {
     let scene = parse(&whole);
     // Where leaving a key out has no word of its own, the template names what it comes to.
     let default = PackingSpec::default();
-    let settling = default.settling();
-    assert_eq!(scene.packing.settling().tolerance(), settling.tolerance());
-    let of_scene = scene.packing.settling();
+    let settling = default.settling_in(2);
+    assert_eq!(
+        scene.packing.settling_in(2).tolerance(),
+        settling.tolerance()
+    );
+    let of_scene = scene.packing.settling_in(2);
     assert_eq!(of_scene.minimiser, settling.minimiser);
     assert_eq!(of_scene.levelling, settling.levelling);
     assert_eq!(scene.packing.kernel(), default.kernel());
@@ -448,13 +451,10 @@ fn broken_text_is_located() {
 }
 
 #[test]
-fn levelling_is_weaker_where_the_kernel_is_short() {
-    let at = |keys: &str| {
-        parse(&format!("{GOOD}[packing]\n{keys}\n"))
-            .packing
-            .settling()
-            .levelling
-    };
+fn levelling_goes_by_the_kernel() {
+    let packing = |keys: &str| parse(&format!("{GOOD}[packing]\n{keys}\n")).packing;
+    let at = |keys: &str| packing(keys).settling_in(2).levelling;
+    let in_space = |keys: &str| packing(keys).settling_in(3).levelling;
     assert_eq!(at(""), 10.0);
     assert_eq!(at("h_over_spacing = 1.5"), 10.0);
     assert!((at("h_over_spacing = 1.0") - 4.82).abs() < 0.01);
@@ -462,6 +462,12 @@ fn levelling_is_weaker_where_the_kernel_is_short() {
     assert_eq!(at("masses = \"corrected\""), 200.0);
     assert_eq!(at("method = \"complex\""), 1000.0);
     assert_eq!(at("method = \"complex\"\nlevelling = 0.0"), 0.0);
+    assert_eq!(in_space(""), 10.0);
+    let wendland = "kernel = \"wendland-c2\"\nh_over_spacing";
+    assert_eq!(at(&format!("{wendland} = 1.5")), 10.0);
+    assert_eq!(in_space(&format!("{wendland} = 1.5")), 100.0);
+    assert!((in_space(&format!("{wendland} = 1.0")) - 11.2).abs() < 0.1);
+    assert_eq!(in_space(&format!("{wendland} = 1.5\nlevelling = 7.0")), 7.0);
 }
 
 #[test]
@@ -470,7 +476,7 @@ fn limits_of_iterations_limit_what_is_estimated() {
         let scene = parse(&format!(
             "spacing = 1.0\n[domain]\nmin = [0.0, 0.0]\nmax = [9.0, 9.0]\n[packing]\nmethod = \"{method}\"\n{more}"
         ));
-        scene.packing.typical_evaluations()
+        scene.packing.typical_evaluations(2)
     };
     assert_eq!(evaluations("hybrid", "max_iterations = 7"), 7.0);
     assert!(evaluations("hybrid", "") > 1000.0);

@@ -16,7 +16,7 @@ pub(super) fn pairs<const D: usize>(solution: &Solution<D>, report: &Report) -> 
         Moves::Nothing => 0.0,
         Moves::Band => packing
             .band()
-            .first_width(problem, packing.settling().finish),
+            .first_width(problem, packing.settling_in(D).finish),
         Moves::All => f64::INFINITY,
     };
     let mobile: Vec<[f64; D]> = (0..particles.len())
@@ -42,7 +42,7 @@ pub(super) fn pairs<const D: usize>(solution: &Solution<D>, report: &Report) -> 
     // Levelling needs the density before it can push.
     let levels = packing.method == Method::Balanced
         && packing.finish == Finish::Even
-        && packing.settling().levelling > 0.0;
+        && packing.settling_in(D).levelling > 0.0;
     let passes = if levels { 2.0 } else { 1.0 };
     let of_masses = report
         .mass_correction

@@ -93,7 +93,7 @@ impl Balanced {
         work: Work {
             evaluations: 80.0,
             times_plain: 1.3,
-            bytes: [160.0, 330.0],
+            bytes: [260.0, 450.0],
             placing: CHOOSING,
             sampling: [1e-5, 1.1e-4],
             ..Work::PLAIN

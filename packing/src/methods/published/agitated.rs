@@ -121,7 +121,7 @@ impl Agitated {
         // 3,200 … 7,850 iterations, a third of their time the repulsion, whose lists, one for each particle, took 350
         // … 720 bytes in space.
         work: Work {
-            evaluations: 5000.0,
+            evaluations: 4000.0,
             times_plain: 1.5,
             bytes: [220.0, 500.0],
             ..Work::PLAIN

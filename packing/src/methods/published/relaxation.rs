@@ -80,7 +80,7 @@ impl Relaxation {
         h_over_spacing: 1.3,
         // 560 … 2,440 iterations. Both sides of every surface are confined.
         work: Work {
-            evaluations: 1500.0,
+            evaluations: 1200.0,
             confined_sides: 2.0,
             placing: CHOOSING,
             ..Work::PLAIN

@@ -212,7 +212,8 @@ fn row(job: Job, program: &Path, scratch: &Path) -> Result<Row, String> {
             took: settling / number("/seconds/total") * seconds / evaluations,
         }),
         whole: is_whole.then(|| Pair {
-            said: plan.building_seconds + estimate.seconds(pace, scene.typical_evaluations()),
+            said: plan.building_seconds
+                + estimate.seconds(pace, scene.typical_evaluations(plan.dimension)),
             took: seconds,
         }),
         job,
