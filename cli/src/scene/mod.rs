@@ -242,7 +242,7 @@ pub struct PackingSpec {
     /// Of the finish "both": 0 is consistency alone, 1 evenness alone.
     pub balance: f64,
     /// How strongly an even finish levels the density, κ of p = p_b (1 + κ (Γ − Γ₀)); `None` is 10, less where
-    /// h/∆s is below 1.2, in space up to 200 with other kernels than the quintic ([`Settling::levelling_at`]); with corrected masses 200. For complex relaxation 1000. A consistent finish does not level.
+    /// h/∆s is below 1.2, in space 60 to 200 with Wendland's kernels ([`Settling::levelling_at`]); with corrected masses 200. For complex relaxation 1000. A consistent finish does not level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub levelling: Option<f64>,
     /// Which particles settle, with the method balanced.
@@ -301,7 +301,7 @@ impl PackingSpec {
             // Most of it is for factors of matrices: by 1,600 and 6,400 particles in the plane, whose seconds are those of
             // 1,500 and 12,000 evaluations.
             (Method::Balanced, Finish::Calm) => 5000.0,
-            // Around a ball levelling by 100 took 1.3 … 3.6 times as many as by 10, by 300 up to 8.
+            // Around balls levelling by 60 took 2 … 3 times as many as by 10, by 200 up to 6.
             (Method::Balanced, Finish::Even) if dimension == 3 => {
                 let stronger = 0.1 * self.settling_in(dimension).levelling;
                 let evaluations = work.evaluations * stronger.max(1.0).powf(0.4);

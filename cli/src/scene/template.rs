@@ -61,8 +61,8 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # finish = "even"                # even: pairs stay apart | consistent: no net pressure force on any free particle
 #                                # | both: density and net force small at once | calm: as consistent, pairs apart, few particles
 # balance = 0.5                  # finish = "both": from 0, all for consistency, to 1, all for an even density
-# levelling = 10                 # even: how strongly the density is levelled against leftover forces (complex 1000, in space
-                                 # Wendland 100 ... 200); 0: no
+# levelling = 10                 # even: how strongly the density is levelled against leftover forces (complex: 1000); 0: no
+#                                # (in space 60 to 200 with Wendland's kernels)
 # residual_tolerance = 1e-3      # stop where no force times h is larger (methods that minimise; consistent: 1e-5)
 # velocity_tolerance = 1e-4      # stop where nothing is faster (methods that damp: hybrid)
 # minimiser = "lbfgs"            # lbfgs | fire | damped; hybrid has none unless one is named

@@ -465,8 +465,8 @@ fn levelling_goes_by_the_kernel() {
     assert_eq!(in_space(""), 10.0);
     let wendland = "kernel = \"wendland-c2\"\nh_over_spacing";
     assert_eq!(at(&format!("{wendland} = 1.5")), 10.0);
-    assert_eq!(in_space(&format!("{wendland} = 1.5")), 100.0);
-    assert!((in_space(&format!("{wendland} = 1.0")) - 11.2).abs() < 0.1);
+    assert_eq!(in_space(&format!("{wendland} = 1.5")), 60.0);
+    assert!((in_space(&format!("{wendland} = 1.0")) - 6.7).abs() < 0.1);
     assert_eq!(in_space(&format!("{wendland} = 1.5\nlevelling = 7.0")), 7.0);
 }
 

@@ -117,15 +117,13 @@ impl Settling {
     /// The levelling that pays with a kernel at an h/∆s, in so many dimensions: 10 from 1.2 on, less below, as the fourth power. With a
     /// shorter kernel every neighbour counts for more, and evenness costs more evaluations and larger forces left over.
     ///
-    /// In space more with Wendland's kernels, which are pointed, and with the cubic spline: around a ball of three spacings' radius with
-    /// Wendland C2 at 1.4 ten leave 1.4 % after 137 evaluations, a hundred 0.5 % after 422 (`cargo xtask stability steady` has the
-    /// others). Where these are too short, more makes it worse: at 1.0 4.6 and 8.8 %.
+    /// In space more with Wendland's kernels, which are pointed: around balls that leaves a half to a fifth of the error, for two to four times the
+    /// evaluations (docs/steady.md). Where they are too short, more makes it worse: Wendland C2 at 1.0 leaves 4.6 % by 10, 8.8 % by 100.
     pub fn levelling_at(dimension: usize, kernel: KernelKind, h_over_spacing: f64) -> f64 {
         let at_least = Self::LEVELLING * (h_over_spacing / 1.2).min(1.0).powi(4);
         let (most, from) = match (dimension, kernel) {
-            (3, KernelKind::Cubic) => (20.0, 1.2),
-            (3, KernelKind::WendlandC2) => (100.0, 1.2),
-            (3, KernelKind::WendlandC4) => (150.0, 1.4),
+            (3, KernelKind::WendlandC2) => (60.0, 1.2),
+            (3, KernelKind::WendlandC4) => (100.0, 1.4),
             (3, KernelKind::WendlandC6) => (200.0, 1.6),
             _ => return at_least,
         };
