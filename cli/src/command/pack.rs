@@ -17,7 +17,7 @@ use super::progress::Watcher;
 use super::{interrupt, memory_guard, outputs, say, summary, threads};
 use crate::Error;
 use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};
-use crate::files::{AtomicFiles, ParticleFormat, compare};
+use crate::files::{AtomicFiles, PARTICLE_FORMATS, ParticleFormat, put};
 use crate::opened::{Opened, opened};
 use crate::picture::{PictureFormat, Subject, draw};
 use crate::plan::{available_bytes, planned_of};
@@ -199,10 +199,13 @@ fn dry_run(opened: Opened, files: &Files, is_quiet: bool) -> Result<u8, Error> {
     Ok(DONE)
 }
 
-/// Writes particles into the system's folder for temporary files, where their own takes none: they may have taken hours.
+/// Writes particles into the system's folder for temporary files, where their own takes none: they may have taken hours. In a format
+/// that holds all of them: another may be why they could not be written.
 fn rescue(rows: &Table, path: &Path, format: ParticleFormat) -> Option<PathBuf> {
     let stem = path.file_stem()?.to_string_lossy();
-    let ending = path.extension()?.to_string_lossy();
+    let known = PARTICLE_FORMATS.into_iter();
+    let (format, ending) =
+        (known.clone().find(|(own, _)| *own == format)).or_else(|| known.clone().next())?;
     let name = format!("{stem}.rescued-{}.{ending}", std::process::id());
     let elsewhere = std::env::temp_dir().join(name);
     let mut files = AtomicFiles::new(false);
@@ -236,6 +239,9 @@ impl Files {
             .into_iter()
             .map(|path| ParticleFormat::of(&path).map(|format| (path, format)))
             .collect::<Result<Vec<_>, _>>()?;
+        for (path, format) in &particles {
+            format.refuse_unsuited(path, scene)?;
+        }
         let picture = match &arguments.picture {
             Some(path) => Some((path.clone(), PictureFormat::of(path, Some(dimension))?)),
             None => None,
@@ -306,13 +312,7 @@ impl Files {
             }
         };
         for (path, format) in &self.particles {
-            let mut is_compared = true;
-            let done = files.write_and_check(
-                path,
-                |to| format.write(&rows, to),
-                |written| compare(&rows, *format, written).map(|done| is_compared = done),
-            );
-            done.map_err(&rescued)?;
+            let is_compared = put(&mut files, *format, &rows, path).map_err(&rescued)?;
             let remark = if is_compared {
                 ""
             } else {

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::{
-    Columns, ParticleFormat, format, read_csv, read_npy, read_npz, read_ply, read_vtk, read_vtu,
-    read_whole,
+    Columns, ParticleFormat, format, read_csv, read_lammps, read_npy, read_npz, read_ply, read_vtk,
+    read_vtu, read_whole,
 };
 use crate::Error;
 
@@ -40,6 +40,7 @@ impl Columns {
             ParticleFormat::Npz => read_npz(bytes, path),
             ParticleFormat::Ply => read_ply(bytes, path),
             ParticleFormat::Vtk => read_vtk(bytes, path),
+            ParticleFormat::Lammps => read_lammps(bytes, path),
         }?;
         columns.lower_case();
         Ok(columns)

@@ -22,9 +22,11 @@ pub enum ParticleFormat {
     Npz,
     /// Points with properties, little-endian binary.
     Ply,
+    /// LAMMPS's data file, atom style sph.
+    Lammps,
 }
 
-/// Every format and its ending.
+/// The formats that hold every column to the last bit, and their endings.
 pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 6] = [
     (ParticleFormat::Vtu, "vtu"),
     (ParticleFormat::Csv, "csv"),
@@ -33,6 +35,14 @@ pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 6] = [
     (ParticleFormat::Vtk, "vtk"),
     (ParticleFormat::Ply, "ply"),
 ];
+
+/// The formats that a solver reads, which hold what it asks for, and their endings.
+pub const SOLVER_FORMATS: [(ParticleFormat, &str); 1] = [(ParticleFormat::Lammps, "data")];
+
+/// Every format and its ending.
+fn all() -> impl Iterator<Item = (ParticleFormat, &'static str)> {
+    PARTICLE_FORMATS.into_iter().chain(SOLVER_FORMATS)
+}
 
 /// A path's ending in small letters, empty where it has none.
 pub(super) fn ending(path: &Path) -> String {
@@ -53,7 +63,8 @@ impl ParticleFormat {
     pub fn of(path: &Path) -> Result<Self, Error> {
         let ending = ending(path);
         if ending.is_empty() {
-            let known = PARTICLE_FORMATS.map(|(_, name)| name).join(", ");
+            let known: Vec<&str> = all().map(|(_, name)| name).collect();
+            let known = known.join(", ");
             return Err(Error::input(
                 path,
                 format!(
@@ -70,12 +81,11 @@ impl ParticleFormat {
                 ),
             ));
         }
-        PARTICLE_FORMATS
-            .iter()
+        all()
             .find(|(_, name)| *name == ending)
-            .map(|&(format, _)| format)
+            .map(|(format, _)| format)
             .ok_or_else(|| {
-                let known = PARTICLE_FORMATS.map(|(_, name)| name);
+                let known: Vec<&str> = all().map(|(_, name)| name).collect();
                 Error::input(
                     path,
                     format!(
@@ -89,7 +99,7 @@ impl ParticleFormat {
     /// Writes particles.
     ///
     /// # Errors
-    /// Those of `to`; where a number is not finite, before anything is written.
+    /// Those of `to`; before anything is written, where a number is not finite, or the format cannot hold the particles.
     pub fn write(self, table: &Table, to: &mut dyn Write) -> io::Result<()> {
         match self {
             Self::Csv => super::write_csv(table, to),
@@ -98,6 +108,7 @@ impl ParticleFormat {
             Self::Vtk => super::write_vtk(table, to),
             Self::Npz => super::write_npz(table, to),
             Self::Ply => super::write_ply(table, to),
+            Self::Lammps => super::write_lammps(table, to),
         }
     }
 }

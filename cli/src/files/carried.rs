@@ -1,0 +1,57 @@
+//! What files for solvers hold of a table: fewer columns than others, some in fewer digits, some in another order.
+
+use super::ParticleFormat;
+use crate::table::Table;
+
+/// How the numbers of a column stand in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Digits {
+    /// To the last bit.
+    All,
+    /// Rounded to 32 bits.
+    Single,
+}
+
+impl Digits {
+    /// A number as a file has it.
+    pub(super) fn of(self, number: f64) -> f64 {
+        match self {
+            Self::All => number,
+            Self::Single => f64::from(number as f32),
+        }
+    }
+}
+
+/// What a format holds of each particle.
+pub(super) struct Carried {
+    /// Columns of numbers.
+    pub(super) numbers: &'static [(&'static str, Digits)],
+    /// Columns of words.
+    pub(super) words: &'static [&'static str],
+}
+
+impl ParticleFormat {
+    /// What a solver's format holds; `None` where a format holds every column to the last bit.
+    pub(super) fn carried(self) -> Option<Carried> {
+        let (numbers, words): (&[(&str, Digits)], &[&str]) = match self {
+            Self::Lammps => (
+                &[
+                    ("id", Digits::All),
+                    ("x", Digits::All),
+                    ("y", Digits::All),
+                    ("z", Digits::All),
+                    ("mass", Digits::All),
+                    ("density", Digits::All),
+                ],
+                &["kind", "side", "body"],
+            ),
+            _ => return None,
+        };
+        Some(Carried { numbers, words })
+    }
+
+    /// The rows of the table in the order in which a file has them; `None` where that is their own.
+    pub(super) fn order(self, _table: &Table) -> Option<Vec<u32>> {
+        None
+    }
+}
