@@ -1,6 +1,7 @@
 //! What files for solvers hold of a table: fewer columns than others, some in fewer digits, some in another order.
 
 use super::ParticleFormat;
+use super::reload::by_body;
 use crate::table::Table;
 
 /// How the numbers of a column stand in a file.
@@ -21,6 +22,14 @@ impl Digits {
         }
     }
 }
+
+/// What is reloaded.
+const PLACES_AND_VOLUMES: &[(&str, Digits)] = &[
+    ("x", Digits::All),
+    ("y", Digits::All),
+    ("z", Digits::All),
+    ("volume", Digits::All),
+];
 
 /// What a format holds of each particle.
 pub(super) struct Carried {
@@ -45,13 +54,27 @@ impl ParticleFormat {
                 ],
                 &["kind", "side", "body"],
             ),
+            Self::Reload => (PLACES_AND_VOLUMES, &["body"]),
+            Self::ReloadBody => (PLACES_AND_VOLUMES, &[]),
+            Self::Bgeo => (
+                &[
+                    ("x", Digits::Single),
+                    ("y", Digits::Single),
+                    ("z", Digits::Single),
+                    ("id", Digits::All),
+                    ("spacing", Digits::Single),
+                    ("mass", Digits::Single),
+                    ("density", Digits::Single),
+                ],
+                &[],
+            ),
             _ => return None,
         };
         Some(Carried { numbers, words })
     }
 
     /// The rows of the table in the order in which a file has them; `None` where that is their own.
-    pub(super) fn order(self, _table: &Table) -> Option<Vec<u32>> {
-        None
+    pub(super) fn order(self, table: &Table) -> Option<Vec<u32>> {
+        (self == Self::Reload).then(|| by_body(table))
     }
 }

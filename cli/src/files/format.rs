@@ -24,6 +24,12 @@ pub enum ParticleFormat {
     Ply,
     /// LAMMPS's data file, atom style sph.
     Lammps,
+    /// SPHinXsys's `Reload.xml`, all bodies in one file.
+    Reload,
+    /// SPHinXsys's older `NAME_rld.xml`, the particles of one body.
+    ReloadBody,
+    /// Houdini's and SPlisHSPlasH's points, BGEO version 5.
+    Bgeo,
 }
 
 /// The formats that hold every column to the last bit, and their endings.
@@ -36,8 +42,13 @@ pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 6] = [
     (ParticleFormat::Ply, "ply"),
 ];
 
-/// The formats that a solver reads, which hold what it asks for, and their endings.
-pub const SOLVER_FORMATS: [(ParticleFormat, &str); 1] = [(ParticleFormat::Lammps, "data")];
+/// The formats that a solver reads, which hold what it asks for, and their endings. A name that ends with `_rld.xml` is
+/// [`ParticleFormat::ReloadBody`].
+pub const SOLVER_FORMATS: [(ParticleFormat, &str); 3] = [
+    (ParticleFormat::Lammps, "data"),
+    (ParticleFormat::Reload, "xml"),
+    (ParticleFormat::Bgeo, "bgeo"),
+];
 
 /// Every format and its ending.
 fn all() -> impl Iterator<Item = (ParticleFormat, &'static str)> {
@@ -48,6 +59,13 @@ fn all() -> impl Iterator<Item = (ParticleFormat, &'static str)> {
 pub(super) fn ending(path: &Path) -> String {
     path.extension()
         .map_or_else(String::new, |e| e.to_string_lossy().to_lowercase())
+}
+
+/// The body whose particles a file is for, by its name: `NAME_rld.xml`.
+pub(super) fn body_of(path: &Path) -> Option<String> {
+    let stem = path.file_stem()?.to_string_lossy();
+    let body = stem.strip_suffix("_rld")?;
+    (ending(path) == "xml").then(|| body.to_owned())
 }
 
 impl ParticleFormat {
@@ -81,6 +99,9 @@ impl ParticleFormat {
                 ),
             ));
         }
+        if body_of(path).is_some() {
+            return Ok(Self::ReloadBody);
+        }
         all()
             .find(|(_, name)| *name == ending)
             .map(|(format, _)| format)
@@ -109,6 +130,9 @@ impl ParticleFormat {
             Self::Npz => super::write_npz(table, to),
             Self::Ply => super::write_ply(table, to),
             Self::Lammps => super::write_lammps(table, to),
+            Self::Reload => super::write_reload(table, to),
+            Self::ReloadBody => super::write_reload_body(table, to),
+            Self::Bgeo => super::write_bgeo(table, to),
         }
     }
 }

@@ -5,6 +5,10 @@ mod arrays;
 mod atomic;
 #[cfg(test)]
 mod atomic_tests;
+mod bgeo;
+mod bgeo_read;
+#[cfg(test)]
+mod bgeo_tests;
 mod carried;
 mod columns;
 mod csv;
@@ -26,6 +30,10 @@ mod ply;
 mod ply_read;
 mod put;
 mod read_back;
+mod reload;
+mod reload_read;
+#[cfg(test)]
+mod reload_tests;
 mod shortest;
 mod size_limit;
 #[cfg(test)]
@@ -53,6 +61,8 @@ use crate::Error;
 use crate::table::Table;
 
 pub(crate) use atomic::{AtomicFiles, replace};
+pub use bgeo::write_bgeo;
+pub use bgeo_read::read_bgeo;
 pub use columns::Columns;
 pub use csv::{read_csv, write_csv};
 pub use format::{PARTICLE_FORMATS, ParticleFormat, SOLVER_FORMATS};
@@ -65,6 +75,8 @@ pub use ply::write_ply;
 pub use ply_read::read_ply;
 pub(crate) use put::put;
 use read_back::compare;
+pub use reload::{write_reload, write_reload_body};
+pub use reload_read::read_reload;
 pub(crate) use taken::refuse_taken;
 pub(crate) use temporary::forget_unfinished;
 pub use vtk::write_vtk;

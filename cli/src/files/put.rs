@@ -2,21 +2,33 @@
 
 use std::path::Path;
 
+use super::format::body_of;
+use super::reload::FLUID;
 use super::{AtomicFiles, ParticleFormat, compare};
 use crate::Error;
+use crate::scene::advice;
 use crate::table::Table;
 
 /// Writes particles under temporary names and has what is written read again and compared with the table; `false` where there was no memory
 /// for that.
 ///
 /// # Errors
-/// [`Error::Write`] where they cannot be written, the format cannot hold them, or what is read again differs.
+/// [`Error::Input`] where no body has the name that the file's name asks for; [`Error::Write`] where they cannot be written, the format cannot hold them, or what is read again differs.
 pub(crate) fn put(
     files: &mut AtomicFiles,
     format: ParticleFormat,
     table: &Table,
     path: &Path,
 ) -> Result<bool, Error> {
+    let one;
+    let table = match body_of(path).filter(|_| format == ParticleFormat::ReloadBody) {
+        None => table,
+        Some(name) => {
+            refuse_unknown(path, &name, table.bodies.iter().map(String::as_str))?;
+            one = table.filtered(|i| table.body_name(i).unwrap_or(FLUID) == name);
+            &one
+        }
+    };
     let mut is_compared = true;
     files.write_and_check(
         path,
@@ -24,4 +36,23 @@ pub(crate) fn put(
         |written| compare(table, format, written).map(|done| is_compared = done),
     )?;
     Ok(is_compared)
+}
+
+/// Refuses the name of a body in the name of a file where there is none.
+pub(super) fn refuse_unknown<'a>(
+    path: &Path,
+    name: &str,
+    bodies: impl Iterator<Item = &'a str>,
+) -> Result<(), Error> {
+    let known: Vec<&str> = bodies.chain([FLUID]).collect();
+    if known.contains(&name) {
+        return Ok(());
+    }
+    Err(Error::input(
+        path,
+        format!(
+            "NAME_rld.xml holds the particles of the body NAME, and none is called \"{name}\"; {}",
+            advice(name, &known)
+        ),
+    ))
 }

@@ -3,6 +3,9 @@
 use std::path::Path;
 
 use super::ParticleFormat;
+use super::format::body_of;
+use super::put::refuse_unknown;
+use super::reload::FLUID;
 use crate::Error;
 use crate::scene::{Masses, Scene};
 
@@ -31,7 +34,17 @@ impl ParticleFormat {
                 ));
             }
         }
-        Ok(())
+        let bodies = || scene.body.iter().map(|body| body.name.as_str());
+        let is_reload = matches!(self, Self::Reload | Self::ReloadBody);
+        if is_reload && bodies().any(|name| name == FLUID) {
+            return refuse(format!(
+                "a body is called \"{FLUID}\", as the fluid is in this file; give the body another name"
+            ));
+        }
+        match body_of(path).filter(|_| self == Self::ReloadBody) {
+            Some(name) => refuse_unknown(path, &name, bodies()),
+            None => Ok(()),
+        }
     }
 
     /// What has only one mass, where that is all a format knows.
