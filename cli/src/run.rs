@@ -163,6 +163,12 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
         spacing: packed.spacing,
         smoothing_length: scene.judge().1 * packed.spacing,
         density: solids.chain([scene.fluid.density]).collect(),
+        inset: (scene.body.iter())
+            .map(|body| match body.role {
+                Role::Container => 0.0,
+                _ => body.surface.0 * packed.spacing,
+            })
+            .collect(),
         domain: Some([
             point::of_slice(&packed.domain.bounds.min),
             point::of_slice(&packed.domain.bounds.max),

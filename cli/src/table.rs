@@ -55,6 +55,9 @@ pub struct Shared {
     pub smoothing_length: f64,
     /// Density of each body, and of the fluid last.
     pub density: Vec<f64>,
+    /// How far inward of its true surface each body's surface particles are, scene units; 0 for containers, whose particles are the
+    /// wall. Empty where nobody says.
+    pub inset: Vec<f64>,
     /// Lower and upper corner of the box that was packed, scene units, z from 0 to 0 in 2-D; `None` where nobody says.
     pub domain: Option<[[f64; 3]; 2]>,
     /// Which of its axes wrap around.

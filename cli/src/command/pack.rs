@@ -268,7 +268,8 @@ impl Files {
         if !arguments.dry_run {
             let mut inputs = vec![arguments.input.clone()];
             inputs.extend(scene.files().map(|file| scene.resolve(file)));
-            outputs::check(&files.paths(), &inputs, arguments.force)?;
+            let paths = files.paths();
+            outputs::check(&paths.iter().collect::<Vec<_>>(), &inputs, arguments.force)?;
             if let Some(path) = &arguments.checkpoint {
                 outputs::check(&[path], &inputs, true)?;
             }
@@ -276,10 +277,18 @@ impl Files {
         Ok(files)
     }
 
-    fn paths(&self) -> Vec<&PathBuf> {
-        let particles = self.particles.iter().map(|(path, _)| path);
-        let picture = self.picture.iter().map(|(path, _)| path);
-        particles.chain(picture).chain(&self.report).collect()
+    fn paths(&self) -> Vec<PathBuf> {
+        let particles = self.particles.iter();
+        let particles = particles.flat_map(|(path, format)| {
+            [Some(path.clone()), format.beside(path)]
+                .into_iter()
+                .flatten()
+        });
+        let picture = self.picture.iter().map(|(path, _)| path.clone());
+        particles
+            .chain(picture)
+            .chain(self.report.clone())
+            .collect()
     }
 
     /// Writes them all, and says which and with how many particles.
@@ -324,6 +333,7 @@ impl Files {
                 crate::picture::grouped(rows.len() - frozen),
                 crate::picture::grouped(frozen)
             ));
+            written.extend(format.beside(path).map(|beside| shown(&beside)));
         }
         if let Some((path, format)) = &self.picture {
             let report = &outcome.report;

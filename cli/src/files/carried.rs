@@ -1,7 +1,7 @@
 //! What files for solvers hold of a table: fewer columns than others, some in fewer digits, some in another order.
 
 use super::ParticleFormat;
-use super::reload::by_body;
+use super::by_body::by_body;
 use crate::table::Table;
 
 /// How the numbers of a column stand in a file.
@@ -68,6 +68,19 @@ impl ParticleFormat {
                 ],
                 &[],
             ),
+            Self::Bi4 => (
+                &[
+                    ("x", Digits::All),
+                    ("y", Digits::All),
+                    ("z", Digits::All),
+                    ("m", Digits::All),
+                    ("rho", Digits::Single),
+                    ("to_surface_x", Digits::Single),
+                    ("to_surface_y", Digits::Single),
+                    ("to_surface_z", Digits::Single),
+                ],
+                &["side"],
+            ),
             _ => return None,
         };
         Some(Carried { numbers, words })
@@ -75,6 +88,6 @@ impl ParticleFormat {
 
     /// The rows of the table in the order in which a file has them; `None` where that is their own.
     pub(super) fn order(self, table: &Table) -> Option<Vec<u32>> {
-        (self == Self::Reload).then(|| by_body(table))
+        matches!(self, Self::Reload | Self::Bi4).then(|| by_body(table))
     }
 }

@@ -1,7 +1,7 @@
 //! Particle formats by name.
 
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::scene::advice;
@@ -30,6 +30,8 @@ pub enum ParticleFormat {
     ReloadBody,
     /// Houdini's and SPlisHSPlasH's points, BGEO version 5.
     Bgeo,
+    /// DualSPHysics's case; what its particles are is in a file beside it ([`ParticleFormat::beside`]).
+    Bi4,
 }
 
 /// The formats that hold every column to the last bit, and their endings.
@@ -44,10 +46,11 @@ pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 6] = [
 
 /// The formats that a solver reads, which hold what it asks for, and their endings. A name that ends with `_rld.xml` is
 /// [`ParticleFormat::ReloadBody`].
-pub const SOLVER_FORMATS: [(ParticleFormat, &str); 3] = [
+pub const SOLVER_FORMATS: [(ParticleFormat, &str); 4] = [
     (ParticleFormat::Lammps, "data"),
     (ParticleFormat::Reload, "xml"),
     (ParticleFormat::Bgeo, "bgeo"),
+    (ParticleFormat::Bi4, "bi4"),
 ];
 
 /// Every format and its ending.
@@ -117,7 +120,13 @@ impl ParticleFormat {
             })
     }
 
-    /// Writes particles.
+    /// The second file of a format that has two, by the name of the first: of `case.bi4`, `case.xml`.
+    #[must_use]
+    pub fn beside(self, path: &Path) -> Option<PathBuf> {
+        (self == Self::Bi4).then(|| path.with_extension("xml"))
+    }
+
+    /// Writes particles; of a format that has two files, the first.
     ///
     /// # Errors
     /// Those of `to`; before anything is written, where a number is not finite, or the format cannot hold the particles.
@@ -133,6 +142,7 @@ impl ParticleFormat {
             Self::Reload => super::write_reload(table, to),
             Self::ReloadBody => super::write_reload_body(table, to),
             Self::Bgeo => super::write_bgeo(table, to),
+            Self::Bi4 => super::write_bi4(table, to),
         }
     }
 }

@@ -9,6 +9,14 @@ mod bgeo;
 mod bgeo_read;
 #[cfg(test)]
 mod bgeo_tests;
+mod bi4;
+mod bi4_case;
+mod bi4_items;
+mod bi4_read;
+#[cfg(test)]
+mod bi4_tests;
+mod bi4_xml;
+mod by_body;
 mod carried;
 mod columns;
 mod csv;
@@ -63,6 +71,9 @@ use crate::table::Table;
 pub(crate) use atomic::{AtomicFiles, replace};
 pub use bgeo::write_bgeo;
 pub use bgeo_read::read_bgeo;
+pub use bi4::write_bi4;
+pub use bi4_read::read_bi4;
+pub use bi4_xml::write_bi4_xml;
 pub use columns::Columns;
 pub use csv::{read_csv, write_csv};
 pub use format::{PARTICLE_FORMATS, ParticleFormat, SOLVER_FORMATS};
@@ -93,7 +104,12 @@ pub use vtu_read::read_vtu;
 /// [`Error::Write`].
 pub fn save(table: &Table, path: &Path, may_replace: bool) -> Result<(), Error> {
     let format = ParticleFormat::of(path)?;
-    refuse_taken(path, may_replace, "let it be replaced")?;
+    for path in [Some(path.to_owned()), format.beside(path)]
+        .into_iter()
+        .flatten()
+    {
+        refuse_taken(&path, may_replace, "let it be replaced")?;
+    }
     let mut files = AtomicFiles::new(may_replace);
     put(&mut files, format, table, path)?;
     files.finish()

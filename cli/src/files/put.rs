@@ -1,10 +1,11 @@
 //! All files of a format, written as a part of one set.
 
+use std::fs;
 use std::path::Path;
 
 use super::format::body_of;
 use super::reload::FLUID;
-use super::{AtomicFiles, ParticleFormat, compare};
+use super::{AtomicFiles, ParticleFormat, compare, write_bi4_xml};
 use crate::Error;
 use crate::scene::advice;
 use crate::table::Table;
@@ -35,6 +36,18 @@ pub(crate) fn put(
         |to| format.write(table, to),
         |written| compare(table, format, written).map(|done| is_compared = done),
     )?;
+    if let Some(beside) = format.beside(path) {
+        let mut text = Vec::new();
+        write_bi4_xml(table, &mut text).map_err(|e| Error::write(&beside, e))?;
+        let is_same = |written: &Path| match fs::read(written) {
+            Ok(again) if again == text => Ok(()),
+            Ok(_) => Err(
+                "read again, it is not what was written; this is a fault of the disk".to_owned(),
+            ),
+            Err(e) => Err(format!("it cannot be read again ({e})")),
+        };
+        files.write_and_check(&beside, |to| to.write_all(&text), is_same)?;
+    }
     Ok(is_compared)
 }
 

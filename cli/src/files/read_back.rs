@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use super::bi4_case::derived;
 use super::carried::Digits;
 use super::vtu_read::{Names, visit};
 use super::{Columns, ParticleFormat};
@@ -103,6 +104,9 @@ impl<'t> Found<'t> {
         ];
         if !table.pressure.is_empty() {
             all.push(("pressure", Box::new(|i| table.pressure[i])));
+        }
+        if format == ParticleFormat::Bi4 {
+            all.extend(derived(table));
         }
         let carried = format.carried();
         let digits = |name: &str| match &carried {

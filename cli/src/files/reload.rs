@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use super::by_body::{by_body, place_of_body};
 use super::shortest::Short;
 use super::vtk_xml::escaped;
 use crate::table::Table;
@@ -71,17 +72,4 @@ fn particles(
 
 fn has_fluid(table: &Table) -> bool {
     (0..table.len()).any(|i| table.body_name(i).is_none())
-}
-
-/// Bodies in their order, then what belongs to none.
-fn place_of_body(table: &Table, i: usize) -> usize {
-    let body = table.body[i].map_or(usize::MAX, usize::from);
-    body.min(table.bodies.len())
-}
-
-/// The rows, one body's after the other's.
-pub(super) fn by_body(table: &Table) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..table.len() as u32).collect();
-    order.sort_by_key(|&i| place_of_body(table, i as usize));
-    order
 }

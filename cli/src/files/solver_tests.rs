@@ -29,7 +29,8 @@ pub(super) fn some(dimension: usize, count: u32) -> Table {
             smoothing_length: 0.12,
             density: vec![2.5, 1e-3, 7.8, 1e3],
             domain: Some([flat([-1.0, -2.0, -3.0]), flat([1.0, 2.0, 3.0])]),
-            periodic: [true, false, false],
+            inset: vec![0.05, 0.0, 0.025],
+            periodic: [false; 3],
         },
         ..Table::default()
     };
@@ -179,7 +180,7 @@ fn what_no_file_may_hold() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(100))]
 
     #[test]
     fn damaged_files_are_refused_or_read_but_never_panic(

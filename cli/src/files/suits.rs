@@ -34,6 +34,13 @@ impl ParticleFormat {
                 ));
             }
         }
+        let periodic = scene.domain.periodic.iter().flatten();
+        if self == Self::Bi4 && periodic.copied().any(|is| is) {
+            return refuse(
+                "DualSPHysics takes a period from where particles are, which is not the period of packed ones; leave domain.periodic out, or choose another format"
+                    .to_owned(),
+            );
+        }
         let bodies = || scene.body.iter().map(|body| body.name.as_str());
         let is_reload = matches!(self, Self::Reload | Self::ReloadBody);
         if is_reload && bodies().any(|name| name == FLUID) {
@@ -51,6 +58,7 @@ impl ParticleFormat {
     fn one_mass_per(self) -> Option<&'static str> {
         match self {
             Self::Lammps => Some("LAMMPS has one mass per type of atoms"),
+            Self::Bi4 => Some("DualSPHysics has one mass for the fluid and one for boundaries"),
             _ => None,
         }
     }
