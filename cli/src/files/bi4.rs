@@ -15,7 +15,7 @@ use crate::table::Table;
 /// containers and on exact surfaces.
 ///
 /// # Errors
-/// Those of `to`; before anything is written, where a number is not finite or too large for 32 bits, the fluid has more than one mass,
+/// Those of `to`; before anything is written, where a number is not finite or too large for 32 bits, the fluid has more than one mass, or nobody says its density,
 /// or an axis is periodic.
 pub fn write_bi4(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     // The largest array has 24 bytes for each.
@@ -39,7 +39,7 @@ pub(super) fn write(table: &Table, is_wide: bool, to: &mut dyn Write) -> io::Res
     let count = table.len();
     let fixed = case.bound as u64;
     let [low, high] = table.bounds().map(|corner| case.axes(corner));
-    let shared = &table.shared;
+    let [spacing, smoothing_length] = case.lengths();
     let zero = [0.0; 3];
     let root = [
         ("Piece", Value::Uint(0)),
@@ -66,8 +66,8 @@ pub(super) fn write(table: &Table, is_wide: bool, to: &mut dyn Write) -> io::Res
         ("CasePosMax", Value::Double3(high)),
         ("NpDynamic", Value::Bool(false)),
         ("ReuseIds", Value::Bool(false)),
-        ("Dp", Value::Double(shared.spacing)),
-        ("H", Value::Double(shared.smoothing_length)),
+        ("Dp", Value::Double(spacing)),
+        ("H", Value::Double(smoothing_length)),
         ("B", Value::Double(case.stiffness())),
         ("Rhop0", Value::Double(case.density)),
         ("Gamma", Value::Double(super::bi4_xml::GAMMA)),

@@ -4,6 +4,7 @@ use std::io;
 use std::rc::Rc;
 
 use super::by_body::{by_body, place_of_body};
+use super::carried::Entries;
 use crate::table::Table;
 
 /// How far masses may differ that are one, as a part of them: rounding does.
@@ -62,7 +63,18 @@ impl<'t> Case<'t> {
             .last()
             .filter(|block| block.body == table.bodies.len());
         let bound = fluid.map_or(table.len(), |fluid| fluid.begin);
-        let density = table.shared.density_of(None);
+        // Tables of columns alone have no common ones.
+        let first = order.get(bound).map(|&i| table.density_of(i as usize));
+        let density = match table.shared.density_of(None) {
+            0.0 => first.unwrap_or(0.0),
+            common => common,
+        };
+        if !table.is_empty() && density <= 0.0 {
+            return refuse(
+                "nothing says the density of the fluid, which DualSPHysics gives to boundaries too; keep the fluid, or use another format"
+                    .to_owned(),
+            );
+        }
         let mass_fluid = order.get(bound).map(|&i| table.mass[i as usize]);
         let is_same =
             |mass: f64| mass_fluid.is_none_or(|one| (mass - one).abs() <= SAME_MASS * one);
@@ -91,6 +103,15 @@ impl<'t> Case<'t> {
             order,
             blocks,
         })
+    }
+
+    /// The spacing and the smoothing length.
+    pub(super) fn lengths(&self) -> [f64; 2] {
+        let (table, shared) = (self.table, &self.table.shared);
+        if table.is_empty() {
+            return [shared.spacing, shared.smoothing_length];
+        }
+        [table.spacing_of(0), table.smoothing_length_of(0)]
     }
 
     /// A place, or a vector, with DualSPHysics's axes: the plane has x and z.
@@ -129,12 +150,12 @@ impl<'t> Case<'t> {
 }
 
 /// Numbers that a case makes of a table's, by name, for each of its rows; none of a table that is no case.
-pub(super) fn derived(table: &Table) -> Vec<(&'static str, Box<dyn Fn(usize) -> f64 + '_>)> {
+pub(super) fn derived(table: &Table) -> Vec<(&'static str, Entries<'_>)> {
     let Ok(case) = Case::of(table).map(Rc::new) else {
         return Vec::new();
     };
     let [mass, density] = [(); 2].map(|()| Rc::clone(&case));
-    let mut all: Vec<(&'static str, Box<dyn Fn(usize) -> f64 + '_>)> = vec![
+    let mut all: Vec<(&'static str, Entries<'_>)> = vec![
         ("m", Box::new(move |i| mass.mass_of(i))),
         ("rho", Box::new(move |i| density.density_of(i))),
     ];

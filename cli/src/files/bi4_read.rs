@@ -97,7 +97,7 @@ impl<'a> Rest<'a> {
     }
 
     /// The part of as many bytes as come first, which begins with `mark`.
-    fn definition(&mut self, mark: &str) -> Result<Rest<'a>, String> {
+    fn definition(&mut self, mark: &str) -> Result<Self, String> {
         let length = self.number(4)?;
         let mut part = Rest {
             bytes: self.take(length)?,

@@ -16,7 +16,7 @@ struct Item {
     whole: HashMap<String, u64>,
     real: HashMap<String, Vec<f64>>,
     arrays: HashMap<String, (u32, Vec<f64>)>,
-    items: Vec<Item>,
+    items: Vec<Self>,
 }
 
 impl<'a> Bytes<'a> {
@@ -364,4 +364,27 @@ fn damaged_files() {
         let message = read(&bad).map(|_| ()).unwrap_err().to_string();
         assert!(message.contains(part), "{place}: {message}");
     }
+}
+
+#[test]
+fn columns_alone_say_enough() {
+    let mut table = some(3, 12);
+    table.density = (0..12).map(|i| table.density_of(i)).collect();
+    table.spacing = vec![0.1; 12];
+    table.smoothing_length = vec![0.12; 12];
+    let common = std::mem::take(&mut table.shared);
+    let mut text = Vec::new();
+    write_bi4_xml(&table, &mut text).unwrap();
+    table.shared = common;
+    let mut instead = Vec::new();
+    write_bi4_xml(&table, &mut instead).unwrap();
+    assert_eq!(text, instead);
+    // Without fluid nobody knows its density.
+    let mut walls = table.filtered(|i| table.body[i].is_some());
+    walls.shared = Default::default();
+    let message = write_bi4(&walls, &mut Vec::new()).unwrap_err().to_string();
+    assert!(
+        message.contains("nothing says the density of the fluid"),
+        "{message}"
+    );
 }

@@ -36,7 +36,7 @@ impl Case<'_> {
         let height = if low < high {
             high - low
         } else {
-            self.table.shared.spacing
+            self.lengths()[0]
         };
         SOUND_OVER_FALL * SOUND_OVER_FALL * GRAVITY * height * self.density / GAMMA
     }
@@ -59,6 +59,7 @@ fn text(case: &Case<'_>) -> String {
     let table = case.table;
     let (count, bound) = (table.len(), case.bound);
     let is_plane = table.dimension == 2;
+    let [spacing, smoothing_length] = case.lengths();
     let mut constants = format!("<data2d value=\"{is_plane}\"/>\n");
     if is_plane {
         constants += "<data2dposy value=\"0\" units_comment=\"m\"/>\n";
@@ -72,8 +73,8 @@ fn text(case: &Case<'_>) -> String {
         ("cflnumber", COURANT, ""),
         ("gamma", GAMMA, ""),
         ("rhop0", case.density, "kg/m^3"),
-        ("dp", table.shared.spacing, "m"),
-        ("h", table.shared.smoothing_length, "m"),
+        ("dp", spacing, "m"),
+        ("h", smoothing_length, "m"),
         ("b", case.stiffness(), "Pa"),
         ("massbound", case.mass_bound, "kg"),
         ("massfluid", case.mass_fluid, "kg"),

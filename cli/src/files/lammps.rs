@@ -75,10 +75,15 @@ pub fn write_lammps(table: &Table, to: &mut dyn Write) -> io::Result<()> {
 /// The sides of the box: none of them may be 0 long.
 fn sides(table: &Table) -> [[f64; 3]; 2] {
     let [mut low, mut high] = table.bounds();
-    let spacing = table.shared.spacing;
+    let spacing = if table.is_empty() {
+        table.shared.spacing
+    } else {
+        table.spacing_of(0)
+    };
     let half = if spacing > 0.0 { 0.5 * spacing } else { 0.5 };
     for axis in 0..3 {
-        if low[axis] >= high[axis] {
+        // Where nobody says the domain, that of the particles' room.
+        if low[axis] >= high[axis] || table.shared.domain.is_none() {
             low[axis] -= half;
             high[axis] += half;
         }

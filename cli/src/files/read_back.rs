@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use super::bi4_case::derived;
-use super::carried::Digits;
+use super::carried::{Digits, Entries};
 use super::vtu_read::{Names, visit};
 use super::{Columns, ParticleFormat};
 use crate::memory::available_bytes;
@@ -60,9 +60,6 @@ fn differs(column: &str, particle: u32, is: impl ToString, instead: impl ToStrin
 fn lacks(column: &str) -> String {
     format!("read again, it has no column {column}; this is a fault of sphpack, try another format")
 }
-
-/// A column's entries by row.
-type Entries<'a> = Box<dyn Fn(usize) -> f64 + 'a>;
 
 /// What is found in a file, column by column.
 struct Found<'t> {
