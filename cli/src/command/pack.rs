@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use sphpack_neighbors::point;
+use sphpack_packing::StopReason;
 use sphpack_packing::pace::Pace;
 use sphpack_packing::problem::size;
-use sphpack_packing::{Kind, StopReason};
 
 use super::arguments::PackArguments;
 use super::duration::duration;
@@ -311,7 +311,6 @@ impl Files {
         };
         let rows = outcome.included(table, scene);
         outcome.packing.forget_columns();
-        let frozen = (rows.kind.iter().filter(|&&kind| kind == Kind::Frozen)).count();
         let (first, first_format) = &self.particles[0];
         let rescued = |error: Error| {
             let elsewhere = (error.is_all_lost()).then(|| rescue(&rows, first, *first_format));
@@ -321,8 +320,8 @@ impl Files {
             }
         };
         for (path, format) in &self.particles {
-            let is_compared = put(&mut files, *format, &rows, path).map_err(&rescued)?;
-            let remark = if is_compared {
+            let put = put(&mut files, *format, &rows, path).map_err(&rescued)?;
+            let remark = if put.is_compared {
                 ""
             } else {
                 ", not read again for want of memory"
@@ -330,8 +329,8 @@ impl Files {
             written.push(format!(
                 "{} ({} particles and {} frozen ones{remark})",
                 shown(path),
-                crate::picture::grouped(rows.len() - frozen),
-                crate::picture::grouped(frozen)
+                crate::picture::grouped(put.particles - put.frozen),
+                crate::picture::grouped(put.frozen)
             ));
             written.extend(format.beside(path).map(|beside| shown(&beside)));
         }

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use sphpack_packing::Kind;
+
 use super::format::body_of;
 use super::reload::FLUID;
 use super::{AtomicFiles, ParticleFormat, compare, write_bi4_xml};
@@ -10,8 +12,17 @@ use crate::Error;
 use crate::scene::advice;
 use crate::table::Table;
 
-/// Writes particles under temporary names and has what is written read again and compared with the table; `false` where there was no memory
-/// for that.
+/// What was put into a set of files.
+pub(crate) struct Written {
+    /// How many particles.
+    pub(crate) particles: usize,
+    /// How many of them are frozen.
+    pub(crate) frozen: usize,
+    /// Whether they were read again and compared; not where there was no memory for that.
+    pub(crate) is_compared: bool,
+}
+
+/// Writes particles under temporary names and has what is written read again and compared with the table.
 ///
 /// # Errors
 /// [`Error::Input`] where no body has the name that the file's name asks for; [`Error::Write`] where they cannot be written, the format cannot hold them, or what is read again differs.
@@ -20,7 +31,7 @@ pub(crate) fn put(
     format: ParticleFormat,
     table: &Table,
     path: &Path,
-) -> Result<bool, Error> {
+) -> Result<Written, Error> {
     let one;
     let table = match body_of(path).filter(|_| format == ParticleFormat::ReloadBody) {
         None => table,
@@ -48,7 +59,13 @@ pub(crate) fn put(
         };
         files.write_and_check(&beside, |to| to.write_all(&text), is_same)?;
     }
-    Ok(is_compared)
+    Ok(Written {
+        particles: table.len(),
+        frozen: (table.kind.iter())
+            .filter(|&&kind| kind == Kind::Frozen)
+            .count(),
+        is_compared,
+    })
 }
 
 /// Refuses the name of a body in the name of a file where there is none.
