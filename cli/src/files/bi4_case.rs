@@ -4,7 +4,7 @@ use std::io;
 use std::rc::Rc;
 
 use super::by_body::{by_body, place_of_body};
-use super::carried::Entries;
+use super::columns::Entries;
 use crate::table::Table;
 
 /// How far masses may differ that are one, as a part of them: rounding does.

@@ -4,9 +4,6 @@ use super::ParticleFormat;
 use super::by_body::by_body;
 use crate::table::Table;
 
-/// A column's entries by row.
-pub(super) type Entries<'a> = Box<dyn Fn(usize) -> f64 + 'a>;
-
 /// How the numbers of a column stand in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Digits {

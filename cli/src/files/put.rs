@@ -25,7 +25,8 @@ pub(crate) struct Written {
 /// Writes particles under temporary names and has what is written read again and compared with the table.
 ///
 /// # Errors
-/// [`Error::Input`] where no body has the name that the file's name asks for; [`Error::Write`] where they cannot be written, the format cannot hold them, or what is read again differs.
+/// [`Error::Input`] where no body has the name that the file's name asks for; [`Error::Write`] where they cannot be written, the
+/// format cannot hold them, or what is read again differs.
 pub(crate) fn put(
     files: &mut AtomicFiles,
     format: ParticleFormat,
@@ -48,16 +49,16 @@ pub(crate) fn put(
         |written| compare(table, format, written).map(|done| is_compared = done),
     )?;
     if let Some(beside) = format.beside(path) {
-        let mut text = Vec::new();
-        write_bi4_xml(table, &mut text).map_err(|e| Error::write(&beside, e))?;
-        let is_same = |written: &Path| match fs::read(written) {
-            Ok(again) if again == text => Ok(()),
-            Ok(_) => Err(
-                "read again, it is not what was written; this is a fault of the disk".to_owned(),
-            ),
-            Err(e) => Err(format!("it cannot be read again ({e})")),
+        let is_same = |written: &Path| {
+            let again = fs::read(written).map_err(|e| format!("it cannot be read again ({e})"))?;
+            let mut text = Vec::new();
+            write_bi4_xml(table, &mut text).map_err(|e| e.to_string())?;
+            let differs = "read again, it is not what was written; this is a fault of the disk";
+            (again == text)
+                .then_some(())
+                .ok_or_else(|| differs.to_owned())
         };
-        files.write_and_check(&beside, |to| to.write_all(&text), is_same)?;
+        files.write_and_check(&beside, |to| write_bi4_xml(table, to), is_same)?;
     }
     Ok(Written {
         particles: table.len(),

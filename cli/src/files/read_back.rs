@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use super::bi4_case::derived;
-use super::carried::{Digits, Entries};
+use super::carried::Digits;
+use super::columns::Entries;
 use super::vtu_read::{Names, visit};
 use super::{Columns, ParticleFormat};
 use crate::memory::available_bytes;

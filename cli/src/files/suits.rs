@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
+use sphpack_packing::Kind;
+
 use super::ParticleFormat;
 use super::format::body_of;
 use super::put::refuse_unknown;
 use super::reload::FLUID;
 use crate::Error;
-use crate::scene::{Masses, Scene};
+use crate::scene::{Masses, Role, Scene};
 
 impl ParticleFormat {
     /// Refuses scenes whose particles cannot be written in this format.
@@ -40,6 +42,21 @@ impl ParticleFormat {
                 "DualSPHysics takes a period from where particles are, which is not the period of packed ones; leave domain.periodic out, or choose another format"
                     .to_owned(),
             );
+        }
+        let has_frozen = scene.includes(Kind::Frozen) || scene.output.surroundings.is_some();
+        if self == Self::Bi4 && has_frozen {
+            return refuse(
+                "DualSPHysics has one mass for the fluid, and frozen particles have one of their own; leave \"frozen\" out of output.include, and output.surroundings, or choose another format"
+                    .to_owned(),
+            );
+        }
+        let on_voids = (scene.body.iter())
+            .find(|body| body.role == Role::Void && body.surface.0 == 0.0 && scene.fluid.fill);
+        if let Some(body) = on_voids.filter(|_| self == Self::Bi4) {
+            return refuse(format!(
+                "DualSPHysics has one mass for the fluid, and its particles on the exact surface of \"{}\" have less; write surface = \"inset\", or choose another format",
+                body.name
+            ));
         }
         let bodies = || scene.body.iter().map(|body| body.name.as_str());
         let is_reload = matches!(self, Self::Reload | Self::ReloadBody);

@@ -70,6 +70,18 @@ fn what_a_solver_cannot_hold_is_refused_before_the_work() {
         );
         refuse(&hydrostatic, name, &[name, "one mass", "fluid.hydrostatic"]);
     }
+    let frozen = with("[output]\ninclude = [\"free\", \"frozen\"]\n");
+    refuse(
+        &frozen,
+        "o.bi4",
+        &["frozen particles have one of their own", "output.include"],
+    );
+    let void = "role = \"void\"\nsurface = \"exact\"\n";
+    refuse(
+        &with(void),
+        "o.bi4",
+        &["exact surface of \"right\"", "inset"],
+    );
     let periodic = SCENE.replace("[domain]", "[domain]\nperiodic = [true, false]");
     let periodic = Desk::new().with("two.toml", periodic);
     refuse(&periodic, "o.bi4", &["o.bi4", "period", "domain.periodic"]);
