@@ -83,7 +83,7 @@ impl<'t> Case<'t> {
             .find(|&&i| !is_same(table.mass[i as usize]))
         {
             return refuse(format!(
-                "DualSPHysics has one mass for all of the fluid, and particle {} has {} where another has {}; write packing.masses = \"equal\", leave frozen particles and [refinement] out, or choose another format",
+                "DualSPHysics has one mass for all of the fluid, and particle {} has {} where another has {}; write packing.masses = \"equal\", leave frozen particles and [refinement] out, or, where the fluid has several pockets, choose another format",
                 table.id[i as usize],
                 table.mass[i as usize],
                 mass_fluid.unwrap_or_default()
