@@ -163,6 +163,19 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
         spacing: packed.spacing,
         smoothing_length: scene.judge().1 * packed.spacing,
         density: solids.chain([scene.fluid.density]).collect(),
+        inset: (scene.body.iter())
+            .map(|body| match body.role {
+                Role::Container => 0.0,
+                _ => body.surface.0 * packed.spacing,
+            })
+            .collect(),
+        domain: Some([
+            point::of_slice(&packed.domain.bounds.min),
+            point::of_slice(&packed.domain.bounds.max),
+        ]),
+        periodic: std::array::from_fn(|axis| {
+            packed.domain.periodic.get(axis).copied().unwrap_or(false)
+        }),
     };
     let rest_density = |i: usize| shared.density_of(labels.body[i]);
     let at_rest: Vec<AtRest> = (scene.fluid.hydrostatic.iter())

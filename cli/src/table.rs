@@ -55,6 +55,13 @@ pub struct Shared {
     pub smoothing_length: f64,
     /// Density of each body, and of the fluid last.
     pub density: Vec<f64>,
+    /// How far inward of its true surface each body's surface particles are, scene units; 0 for containers, whose particles are the
+    /// wall. Empty where nobody says.
+    pub inset: Vec<f64>,
+    /// Lower and upper corner of the box that was packed, scene units, z from 0 to 0 in 2-D; `None` where nobody says.
+    pub domain: Option<[[f64; 3]; 2]>,
+    /// Which of its axes wrap around.
+    pub periodic: [bool; 3],
 }
 
 impl Shared {
@@ -146,6 +153,26 @@ impl Table {
         pick.of(&mut self.spacing);
         pick.of(&mut self.smoothing_length);
         self
+    }
+
+    /// Lower and upper corner of a box that holds the domain and all particles, scene units; 0 where there is neither.
+    pub fn bounds(&self) -> [[f64; 3]; 2] {
+        let known = self.shared.domain.into_iter().flatten();
+        let mut places = known.chain(self.position.iter().copied());
+        let first = places.next().unwrap_or_default();
+        places.fold([first; 2], |[low, high], place| {
+            let axes = [0, 1, 2];
+            [
+                axes.map(|k| f64::min(low[k], place[k])),
+                axes.map(|k| f64::max(high[k], place[k])),
+            ]
+        })
+    }
+
+    /// The name of the body of particle `i`; `None` where it belongs to none.
+    pub fn body_name(&self, i: usize) -> Option<&str> {
+        let body = self.body[i].and_then(|body| self.bodies.get(usize::from(body)));
+        body.map(String::as_str)
     }
 
     /// The spacing of particle `i`, scene units.

@@ -186,7 +186,9 @@ class Particles:
         return Particles(columns, self.report, self.dimension, self.bodies, self.stop_reason)
 
     def save(self, path: str | os.PathLike[str], force: bool = False) -> None:
-        """Writes a file whose ending says the format: vtu, csv, npz, vtp, vtk or ply. One that exists only with ``force``."""
+        """Writes a file whose ending says the format: vtu, csv, npz, vtp, vtk or ply; for solvers
+        data (LAMMPS), xml (SPHinXsys), bgeo or bi4 (DualSPHysics). One that exists only with ``force``.
+        """
         columns = {name: np.ascontiguousarray(column) for name, column in self._columns.items()}
         _native.save(
             os.fspath(path), force, self.dimension, self.stop_reason, self.bodies, columns

@@ -1,11 +1,11 @@
-//! Writes particles in every format and has them read by others: NumPy, pyvista, meshio.
+//! Writes particles in every format and has them read by others: NumPy, pyvista, meshio, OVITO, splashsurf.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sphpack::files::PARTICLE_FORMATS;
+use sphpack::files::{PARTICLE_FORMATS, SOLVER_FORMATS, save};
 use sphpack::{Options, Scene, run as pack};
 use sphpack_packing::Silent;
 
@@ -14,7 +14,7 @@ use crate::environment::{environment, said};
 use crate::workspace::root;
 
 /// What the script needs besides Python.
-const PACKAGES: [&str; 3] = ["numpy", "pyvista", "meshio"];
+const PACKAGES: [&str; 5] = ["numpy", "pyvista", "meshio", "ovito", "pysplashsurf"];
 
 /// Bodies of several densities and awkward names, one with a wall alone.
 const SCENES: [(&str, &str); 2] = [
@@ -147,6 +147,20 @@ fn write(name: &str, text: &str, folder: &Path) -> Result<(), String> {
             to.flush()
         };
         attempt().map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    let mut rows = rows;
+    // DualSPHysics knows no such box, and the others do not say it.
+    rows.shared.periodic = [false; 3];
+    let all = SOLVER_FORMATS.map(|(_, ending)| match ending {
+        // Not the file beside DualSPHysics's.
+        "xml" => format!("{name}-reload.xml"),
+        ending => format!("{name}.{ending}"),
+    });
+    for file in all.into_iter().chain(["fluid_rld.xml".to_owned()]) {
+        let file = file.replace("fluid_rld", &format!("{name}/fluid_rld"));
+        let path = folder.join(file);
+        fs::create_dir_all(folder.join(name)).map_err(|error| error.to_string())?;
+        save(&rows, &path, true).map_err(|error| error.to_string())?;
     }
     println!("{name}: {} particles", rows.len());
     Ok(())

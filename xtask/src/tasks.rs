@@ -304,7 +304,7 @@ pub(crate) const TASKS: [Task; 25] = [
         name: "round-trip",
         known: round_trip::Settings::KNOWN,
         about: &[
-            "particle files of every format, read by numpy, pyvista and meshio;",
+            "particle files of every format, read by numpy, pyvista, meshio, ovito and splashsurf;",
             "--install puts these into target/round-trip/venv first",
         ],
         read: |given| {

@@ -47,6 +47,7 @@ pub(super) enum Command {
 Examples:
   sphpack pack wing.toml                                       writes wing.vtu
   sphpack pack wing.toml -o wing.npz -o wing.vtu --picture wing.svg --report wing.json
+  sphpack pack tank.toml -o tank.bi4                           for DualSPHysics: tank.bi4 and tank.xml
   sphpack pack bunny.stl --scale 10 --spacing 0.02             a mesh: 3-D
   sphpack pack outline.csv --spacing 0.05 --margin 0.5         rows of x,y: 2-D
   sphpack pack naca0012.dat --spacing 0.01                     an airfoil (Selig or Lednicer): 2-D
@@ -54,6 +55,8 @@ Examples:
   sphpack pack wing.toml --dry-run                             how many particles, how much memory and time
 
 A body's format is told from its content, whatever its name. It is: triangles (STL, binary or text); polygons (OBJ; PLY, binary or text); rows of x,y (a blank line ends a loop); an airfoil's coordinates; or the closed paths, polygons, rectangles, circles and ellipses of an SVG drawing, in the units of its viewBox and with y turned up: (x, y) becomes (x, -y).
+
+Formats for solvers hold what these read, and no more: LAMMPS's data file, atom style sph (.data); SPHinXsys's Reload.xml, or for one body NAME_rld.xml, for the fluid fluid_rld.xml (.xml); BGEO version 5 for SPlisHSPlasH and Houdini, in 32 bits (.bgeo); DualSPHysics's CASE.bi4 with CASE.xml beside it, whose gravity, speed of sound and times are to be edited (.bi4). DualSPHysics takes metres, kilograms and seconds: scenes for it are in these units, and a plane is its x and z. LAMMPS has one mass per type of atoms and DualSPHysics one for the fluid: scenes that make masses differ (packing.masses = \"corrected\", [refinement], fluid.hydrostatic) are refused for them.
 
 Progress goes to standard error, the closing summary to standard output. Ctrl-C stops packing and writes what there is; a second Ctrl-C ends at once.
 
@@ -63,7 +66,7 @@ Files are written under hidden names, read again and compared, and then get thei
 pub(super) struct PackArguments {
     /// The scene (.toml), or a body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
     pub(super) input: PathBuf,
-    /// Write particles here (.vtu, .vtp, .vtk, .npz, .ply, .csv); may be repeated [default: NAME.vtu in the working directory]
+    /// Write particles here (.vtu, .vtp, .vtk, .npz, .ply, .csv; for solvers .data, .xml, .bgeo, .bi4); may be repeated [default: NAME.vtu in the working directory]
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
     /// Write figures here (JSON)
@@ -164,13 +167,13 @@ pub(super) struct CheckArguments {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Particles: text (.csv, .txt, .dat) with columns x,y[,z] and optionally volume and kind, parted by commas, semicolons, tabs or spaces, their names in a header or in a comment as numpy.savetxt writes it (two or three columns need none); a NPZ file with arrays of these names; a NPY file with an array of shape (n, 2) or (n, 3), or of records; a PLY file with properties of these names; or a VTU, VTP or VTK (legacy) file. Without volumes m / rho is taken (or mass / density), without these spacing^dimension. Where the columns spacing or h differ from row to row, each particle is measured by its own. Rows whose kind is \"frozen\" support their neighbours and are not measured themselves; where no row is frozen, particles within a support radius of the edge of their bounding box are left out of the figures.
+Particles: text (.csv, .txt, .dat) with columns x,y[,z] and optionally volume and kind, parted by commas, semicolons, tabs or spaces, their names in a header or in a comment as numpy.savetxt writes it (two or three columns need none); a NPZ file with arrays of these names; a NPY file with an array of shape (n, 2) or (n, 3), or of records; a PLY file with properties of these names; or a VTU, VTP or VTK (legacy) file; or what is written for solvers (.data, .xml, .bgeo, .bi4). Without volumes m / rho is taken (or mass / density), without these spacing^dimension. Where the columns spacing or h differ from row to row, each particle is measured by its own. Rows whose kind is \"frozen\" support their neighbours and are not measured themselves; where no row is frozen, particles within a support radius of the edge of their bounding box are left out of the figures.
 
 Examples:
   sphpack quality particles.csv --spacing 0.1
   sphpack quality particles.vtu --spacing 0.1 --kernel wendland-c2 --h-over-spacing 1.3 --json")]
 pub(super) struct QualityArguments {
-    /// The particles (.csv, .txt, .dat, .npz, .npy, .ply, .vtu, .vtp, .vtk)
+    /// The particles (.csv, .txt, .dat, .npz, .npy, .ply, .vtu, .vtp, .vtk; .data, .xml, .bgeo, .bi4)
     pub(super) particles: PathBuf,
     /// Particle spacing, the root of a particle's volume; the finest where they differ
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]

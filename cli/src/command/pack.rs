@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use sphpack_neighbors::point;
+use sphpack_packing::StopReason;
 use sphpack_packing::pace::Pace;
 use sphpack_packing::problem::size;
-use sphpack_packing::{Kind, StopReason};
 
 use super::arguments::PackArguments;
 use super::duration::duration;
@@ -17,7 +17,7 @@ use super::progress::Watcher;
 use super::{interrupt, memory_guard, outputs, say, summary, threads};
 use crate::Error;
 use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};
-use crate::files::{AtomicFiles, ParticleFormat, compare};
+use crate::files::{AtomicFiles, PARTICLE_FORMATS, ParticleFormat, put};
 use crate::opened::{Opened, opened};
 use crate::picture::{PictureFormat, Subject, draw};
 use crate::plan::{available_bytes, planned_of};
@@ -199,10 +199,13 @@ fn dry_run(opened: Opened, files: &Files, is_quiet: bool) -> Result<u8, Error> {
     Ok(DONE)
 }
 
-/// Writes particles into the system's folder for temporary files, where their own takes none: they may have taken hours.
+/// Writes particles into the system's folder for temporary files, where their own takes none: they may have taken hours. In a format
+/// that holds all of them: another may be why they could not be written.
 fn rescue(rows: &Table, path: &Path, format: ParticleFormat) -> Option<PathBuf> {
     let stem = path.file_stem()?.to_string_lossy();
-    let ending = path.extension()?.to_string_lossy();
+    let known = PARTICLE_FORMATS.into_iter();
+    let (format, ending) =
+        (known.clone().find(|(own, _)| *own == format)).or_else(|| known.clone().next())?;
     let name = format!("{stem}.rescued-{}.{ending}", std::process::id());
     let elsewhere = std::env::temp_dir().join(name);
     let mut files = AtomicFiles::new(false);
@@ -236,6 +239,9 @@ impl Files {
             .into_iter()
             .map(|path| ParticleFormat::of(&path).map(|format| (path, format)))
             .collect::<Result<Vec<_>, _>>()?;
+        for (path, format) in &particles {
+            format.refuse_unsuited(path, scene)?;
+        }
         let picture = match &arguments.picture {
             Some(path) => Some((path.clone(), PictureFormat::of(path, Some(dimension))?)),
             None => None,
@@ -262,7 +268,8 @@ impl Files {
         if !arguments.dry_run {
             let mut inputs = vec![arguments.input.clone()];
             inputs.extend(scene.files().map(|file| scene.resolve(file)));
-            outputs::check(&files.paths(), &inputs, arguments.force)?;
+            let paths = files.paths();
+            outputs::check(&paths.iter().collect::<Vec<_>>(), &inputs, arguments.force)?;
             if let Some(path) = &arguments.checkpoint {
                 outputs::check(&[path], &inputs, true)?;
             }
@@ -270,10 +277,18 @@ impl Files {
         Ok(files)
     }
 
-    fn paths(&self) -> Vec<&PathBuf> {
-        let particles = self.particles.iter().map(|(path, _)| path);
-        let picture = self.picture.iter().map(|(path, _)| path);
-        particles.chain(picture).chain(&self.report).collect()
+    fn paths(&self) -> Vec<PathBuf> {
+        let particles = self.particles.iter();
+        let particles = particles.flat_map(|(path, format)| {
+            [Some(path.clone()), format.beside(path)]
+                .into_iter()
+                .flatten()
+        });
+        let picture = self.picture.iter().map(|(path, _)| path.clone());
+        particles
+            .chain(picture)
+            .chain(self.report.clone())
+            .collect()
     }
 
     /// Writes them all, and says which and with how many particles.
@@ -296,7 +311,6 @@ impl Files {
         };
         let rows = outcome.included(table, scene);
         outcome.packing.forget_columns();
-        let frozen = (rows.kind.iter().filter(|&&kind| kind == Kind::Frozen)).count();
         let (first, first_format) = &self.particles[0];
         let rescued = |error: Error| {
             let elsewhere = (error.is_all_lost()).then(|| rescue(&rows, first, *first_format));
@@ -306,14 +320,8 @@ impl Files {
             }
         };
         for (path, format) in &self.particles {
-            let mut is_compared = true;
-            let done = files.write_and_check(
-                path,
-                |to| format.write(&rows, to),
-                |written| compare(&rows, *format, written).map(|done| is_compared = done),
-            );
-            done.map_err(&rescued)?;
-            let remark = if is_compared {
+            let put = put(&mut files, *format, &rows, path).map_err(&rescued)?;
+            let remark = if put.is_compared {
                 ""
             } else {
                 ", not read again for want of memory"
@@ -321,9 +329,10 @@ impl Files {
             written.push(format!(
                 "{} ({} particles and {} frozen ones{remark})",
                 shown(path),
-                crate::picture::grouped(rows.len() - frozen),
-                crate::picture::grouped(frozen)
+                crate::picture::grouped(put.particles - put.frozen),
+                crate::picture::grouped(put.frozen)
             ));
+            written.extend(format.beside(path).map(|beside| shown(&beside)));
         }
         if let Some((path, format)) = &self.picture {
             let report = &outcome.report;

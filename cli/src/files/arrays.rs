@@ -186,6 +186,7 @@ pub(super) fn code_names(table: &Table) -> [(&'static str, Vec<&str>); 3] {
     ]
 }
 
-fn place<T: PartialEq>(all: &[T], one: T) -> u8 {
+/// The place of `one` in its list.
+pub(super) fn place<T: PartialEq>(all: &[T], one: T) -> u8 {
     all.iter().position(|other| *other == one).unwrap_or(0) as u8
 }

@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 /// Columns that must be numbers where they are there.
 pub(super) const NUMBERS: [&str; 4] = ["x", "y", "z", "volume"];
 
+/// A column's entries by row.
+pub(super) type Entries<'a> = Box<dyn Fn(usize) -> f64 + 'a>;
+
 /// A particle file's columns.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Columns {

@@ -1,12 +1,12 @@
 //! Particles as comma-separated text: a header, then one row per particle.
 
-use std::fmt;
 use std::io::{self, Write};
 use std::path::Path;
 
 use super::Columns;
 use super::columns::NUMBERS;
 use super::csv_header::{Header, rows};
+use super::shortest::Short;
 use crate::Error;
 use crate::table::Table;
 
@@ -57,20 +57,6 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
         writeln!(to)?;
     }
     Ok(())
-}
-
-/// A number as the shortest text that reads back to the same bits.
-struct Short(f64);
-
-impl fmt::Display for Short {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let size = self.0.abs();
-        if size != 0.0 && !(1e-5..1e16).contains(&size) {
-            write!(f, "{:e}", self.0)
-        } else {
-            write!(f, "{}", self.0)
-        }
-    }
 }
 
 /// A field in quotation marks where it needs them.

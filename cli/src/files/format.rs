@@ -1,7 +1,7 @@
 //! Particle formats by name.
 
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::scene::advice;
@@ -22,9 +22,19 @@ pub enum ParticleFormat {
     Npz,
     /// Points with properties, little-endian binary.
     Ply,
+    /// LAMMPS's data file, atom style sph.
+    Lammps,
+    /// SPHinXsys's `Reload.xml`, all bodies in one file.
+    Reload,
+    /// SPHinXsys's older `NAME_rld.xml`, the particles of one body.
+    ReloadBody,
+    /// Houdini's and SPlisHSPlasH's points, BGEO version 5.
+    Bgeo,
+    /// DualSPHysics's case; what its particles are is in a file beside it ([`ParticleFormat::beside`]).
+    Bi4,
 }
 
-/// Every format and its ending.
+/// The formats that hold every column to the last bit, and their endings.
 pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 6] = [
     (ParticleFormat::Vtu, "vtu"),
     (ParticleFormat::Csv, "csv"),
@@ -34,10 +44,31 @@ pub const PARTICLE_FORMATS: [(ParticleFormat, &str); 6] = [
     (ParticleFormat::Ply, "ply"),
 ];
 
+/// The formats that a solver reads, which hold what it asks for, and their endings. A name that ends with `_rld.xml` is
+/// [`ParticleFormat::ReloadBody`].
+pub const SOLVER_FORMATS: [(ParticleFormat, &str); 4] = [
+    (ParticleFormat::Lammps, "data"),
+    (ParticleFormat::Reload, "xml"),
+    (ParticleFormat::Bgeo, "bgeo"),
+    (ParticleFormat::Bi4, "bi4"),
+];
+
+/// Every format and its ending.
+fn all() -> impl Iterator<Item = (ParticleFormat, &'static str)> {
+    PARTICLE_FORMATS.into_iter().chain(SOLVER_FORMATS)
+}
+
 /// A path's ending in small letters, empty where it has none.
 pub(super) fn ending(path: &Path) -> String {
     path.extension()
         .map_or_else(String::new, |e| e.to_string_lossy().to_lowercase())
+}
+
+/// The body whose particles a file is for, by its name: `NAME_rld.xml`.
+pub(super) fn body_of(path: &Path) -> Option<String> {
+    let stem = path.file_stem()?.to_string_lossy();
+    let body = stem.strip_suffix("_rld")?;
+    (ending(path) == "xml").then(|| body.to_owned())
 }
 
 impl ParticleFormat {
@@ -53,7 +84,8 @@ impl ParticleFormat {
     pub fn of(path: &Path) -> Result<Self, Error> {
         let ending = ending(path);
         if ending.is_empty() {
-            let known = PARTICLE_FORMATS.map(|(_, name)| name).join(", ");
+            let known: Vec<&str> = all().map(|(_, name)| name).collect();
+            let known = known.join(", ");
             return Err(Error::input(
                 path,
                 format!(
@@ -70,12 +102,14 @@ impl ParticleFormat {
                 ),
             ));
         }
-        PARTICLE_FORMATS
-            .iter()
+        if body_of(path).is_some() {
+            return Ok(Self::ReloadBody);
+        }
+        all()
             .find(|(_, name)| *name == ending)
-            .map(|&(format, _)| format)
+            .map(|(format, _)| format)
             .ok_or_else(|| {
-                let known = PARTICLE_FORMATS.map(|(_, name)| name);
+                let known: Vec<&str> = all().map(|(_, name)| name).collect();
                 Error::input(
                     path,
                     format!(
@@ -86,10 +120,16 @@ impl ParticleFormat {
             })
     }
 
-    /// Writes particles.
+    /// The second file of a format that has two, by the name of the first: of `case.bi4`, `case.xml`.
+    #[must_use]
+    pub fn beside(self, path: &Path) -> Option<PathBuf> {
+        (self == Self::Bi4).then(|| path.with_extension("xml"))
+    }
+
+    /// Writes particles; of a format that has two files, the first.
     ///
     /// # Errors
-    /// Those of `to`; where a number is not finite, before anything is written.
+    /// Those of `to`; before anything is written, where a number is not finite, or the format cannot hold the particles.
     pub fn write(self, table: &Table, to: &mut dyn Write) -> io::Result<()> {
         match self {
             Self::Csv => super::write_csv(table, to),
@@ -98,6 +138,11 @@ impl ParticleFormat {
             Self::Vtk => super::write_vtk(table, to),
             Self::Npz => super::write_npz(table, to),
             Self::Ply => super::write_ply(table, to),
+            Self::Lammps => super::write_lammps(table, to),
+            Self::Reload => super::write_reload(table, to),
+            Self::ReloadBody => super::write_reload_body(table, to),
+            Self::Bgeo => super::write_bgeo(table, to),
+            Self::Bi4 => super::write_bi4(table, to),
         }
     }
 }

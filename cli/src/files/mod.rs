@@ -5,12 +5,29 @@ mod arrays;
 mod atomic;
 #[cfg(test)]
 mod atomic_tests;
+mod bgeo;
+mod bgeo_read;
+#[cfg(test)]
+mod bgeo_tests;
+mod bi4;
+mod bi4_case;
+mod bi4_items;
+mod bi4_read;
+#[cfg(test)]
+mod bi4_tests;
+mod bi4_xml;
+mod by_body;
+mod carried;
 mod columns;
 mod csv;
 mod csv_header;
 #[cfg(test)]
 mod foreign_tests;
 mod format;
+mod lammps;
+mod lammps_read;
+#[cfg(test)]
+mod lammps_tests;
 mod npy_read;
 #[cfg(test)]
 mod npy_tests;
@@ -19,8 +36,17 @@ mod npz_read;
 mod number_type;
 mod ply;
 mod ply_read;
+mod put;
 mod read_back;
+mod reload;
+mod reload_read;
+#[cfg(test)]
+mod reload_tests;
+mod shortest;
 mod size_limit;
+#[cfg(test)]
+mod solver_tests;
+mod suits;
 mod taken;
 mod temporary;
 #[cfg(test)]
@@ -32,6 +58,7 @@ mod vtk_xml;
 mod vtp;
 mod vtu;
 mod vtu_read;
+mod xml_tag;
 mod zip;
 
 use std::fs::{self, File};
@@ -42,15 +69,25 @@ use crate::Error;
 use crate::table::Table;
 
 pub(crate) use atomic::{AtomicFiles, replace};
+pub use bgeo::write_bgeo;
+pub use bgeo_read::read_bgeo;
+pub use bi4::write_bi4;
+pub use bi4_read::read_bi4;
+pub use bi4_xml::write_bi4_xml;
 pub use columns::Columns;
 pub use csv::{read_csv, write_csv};
-pub use format::{PARTICLE_FORMATS, ParticleFormat};
+pub use format::{PARTICLE_FORMATS, ParticleFormat, SOLVER_FORMATS};
+pub use lammps::write_lammps;
+pub use lammps_read::read_lammps;
 pub use npy_read::read_npy;
 pub use npz::write_npz;
 pub use npz_read::read_npz;
 pub use ply::write_ply;
 pub use ply_read::read_ply;
-pub(crate) use read_back::compare;
+pub(crate) use put::put;
+use read_back::compare;
+pub use reload::{write_reload, write_reload_body};
+pub use reload_read::read_reload;
 pub(crate) use taken::refuse_taken;
 pub(crate) use temporary::forget_unfinished;
 pub use vtk::write_vtk;
@@ -63,17 +100,18 @@ pub use vtu_read::read_vtu;
 /// should. `may_replace`: whether a file that exists may be replaced.
 ///
 /// # Errors
-/// [`Error::Input`] for an ending that is none of [`PARTICLE_FORMATS`], and where the name is taken by what may not be replaced;
+/// [`Error::Input`] for an ending that is none of [`PARTICLE_FORMATS`] and [`SOLVER_FORMATS`], and where the name is taken by what may not be replaced;
 /// [`Error::Write`].
 pub fn save(table: &Table, path: &Path, may_replace: bool) -> Result<(), Error> {
     let format = ParticleFormat::of(path)?;
-    refuse_taken(path, may_replace, "let it be replaced")?;
+    for path in [Some(path.to_owned()), format.beside(path)]
+        .into_iter()
+        .flatten()
+    {
+        refuse_taken(&path, may_replace, "let it be replaced")?;
+    }
     let mut files = AtomicFiles::new(may_replace);
-    files.write_and_check(
-        path,
-        |to| format.write(table, to),
-        |written| compare(table, format, written).map(|_| ()),
-    )?;
+    put(&mut files, format, table, path)?;
     files.finish()
 }
 

@@ -4,22 +4,28 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use super::bi4_case::derived;
+use super::carried::Digits;
+use super::columns::Entries;
 use super::vtu_read::{Names, visit};
 use super::{Columns, ParticleFormat};
 use crate::memory::available_bytes;
 use crate::table::Table;
 
-/// Memory for a file and its columns, in bytes of the file: most is that of text, with words.
-const BYTES_PER_BYTE: f64 = 3.0;
+/// Memory for a file and its columns, in bytes of the file: most is that of text with words, more where the file has a word once for
+/// many particles.
+fn bytes_per_byte(format: ParticleFormat) -> f64 {
+    if format.carried().is_some() { 6.0 } else { 3.0 }
+}
 
-/// Reads a file of particles again and compares every column with the table, to the bit: VTK's XML files piece by piece; others
+/// Reads a file of particles again and compares every column that the format holds with the table, to the last bit that it holds: VTK's XML files piece by piece; others
 /// are held with their columns for that long, and where there is no memory for that, nothing is compared, and the answer is `false`.
 ///
 /// # Errors
 /// The first difference, by column and particle, or why the file cannot be read.
 pub(crate) fn compare(table: &Table, format: ParticleFormat, path: &Path) -> Result<bool, String> {
     let unreadable = |why: &dyn ToString| format!("it cannot be read again ({})", why.to_string());
-    let mut found = Found::of(table);
+    let mut found = Found::of(table, format);
     if format.is_read_by_column() {
         let mut file = fs::File::open(path).map_err(|e| unreadable(&e))?;
         let mut take = |name: &str, piece: &[f64]| found.piece(name, piece);
@@ -29,7 +35,7 @@ pub(crate) fn compare(table: &Table, format: ParticleFormat, path: &Path) -> Res
     }
     let size = fs::metadata(path).map_or(0, |meta| meta.len()) as f64;
     // What has been computed must not be lost for the sake of looking at it again.
-    if BYTES_PER_BYTE * size > available_bytes() {
+    if bytes_per_byte(format) * size > available_bytes() {
         return Ok(false);
     }
     let bytes = fs::read(path).map_err(|e| unreadable(&e))?;
@@ -56,14 +62,15 @@ fn lacks(column: &str) -> String {
     format!("read again, it has no column {column}; this is a fault of sphpack, try another format")
 }
 
-/// A column's entries by row.
-type Entries<'a> = Box<dyn Fn(usize) -> f64 + 'a>;
-
 /// What is found in a file, column by column.
 struct Found<'t> {
     table: &'t Table,
+    /// The rows that the file has, in its order, where that is not the table's.
+    order: Option<Vec<u32>>,
     /// Columns of numbers that are to be there.
-    expected: Vec<(&'static str, Entries<'t>)>,
+    expected: Vec<(&'static str, Entries<'t>, Digits)>,
+    /// Columns of words that are to be there.
+    words: &'static [&'static str],
     /// Rows of every column so far.
     rows: BTreeMap<String, usize>,
     /// Columns of words that stand as numbers.
@@ -76,8 +83,8 @@ struct Found<'t> {
 const WORDS: [&str; 3] = ["kind", "side", "body"];
 
 impl<'t> Found<'t> {
-    fn of(table: &'t Table) -> Self {
-        let mut expected: Vec<(&str, Entries<'_>)> = vec![
+    fn of(table: &'t Table, format: ParticleFormat) -> Self {
+        let mut all: Vec<(&str, Entries<'_>)> = vec![
             ("x", Box::new(|i| table.position[i][0])),
             ("y", Box::new(|i| table.position[i][1])),
             ("z", Box::new(|i| table.position[i][2])),
@@ -94,38 +101,69 @@ impl<'t> Found<'t> {
             ("nz", Box::new(|i| table.normal(i)[2])),
         ];
         if !table.pressure.is_empty() {
-            expected.push(("pressure", Box::new(|i| table.pressure[i])));
+            all.push(("pressure", Box::new(|i| table.pressure[i])));
         }
+        if format == ParticleFormat::Bi4 {
+            all.extend(derived(table));
+        }
+        let carried = format.carried();
+        let digits = |name: &str| match &carried {
+            None => Some(Digits::All),
+            Some(carried) => {
+                let mut numbers = carried.numbers.iter();
+                numbers
+                    .find(|(own, _)| *own == name)
+                    .map(|(_, digits)| *digits)
+            }
+        };
+        let expected = (all.into_iter())
+            .filter_map(|(name, entries)| Some((name, entries, digits(name)?)))
+            .collect();
         Self {
             table,
+            order: format.order(table),
             expected,
+            words: carried.as_ref().map_or(&WORDS, |carried| carried.words),
             rows: BTreeMap::new(),
             codes: BTreeMap::new(),
             difference: None,
         }
     }
 
+    /// Rows that the file is to have.
+    fn len(&self) -> usize {
+        (self.order.as_ref()).map_or(self.table.len(), Vec::len)
+    }
+
+    /// The table's row that is the file's row `i`.
+    fn row(&self, i: usize) -> usize {
+        (self.order.as_ref()).map_or(i, |order| order[i] as usize)
+    }
+
     /// More of a column of numbers.
     fn piece(&mut self, name: &str, piece: &[f64]) {
-        let table = self.table;
+        let len = self.len();
         if WORDS.contains(&name) {
             let codes = self.codes.entry(name.to_owned()).or_default();
             codes.extend_from_slice(piece);
             return;
         }
-        let Some((_, expected)) = self.expected.iter().find(|(own, _)| *own == name) else {
+        let Some((_, expected, digits)) = self.expected.iter().find(|(own, ..)| *own == name)
+        else {
             return;
         };
         let rows = self.rows.entry(name.to_owned()).or_default();
         let begin = *rows;
         *rows += piece.len();
-        if *rows > table.len() || self.difference.is_some() {
+        if *rows > len || self.difference.is_some() {
             return;
         }
         let is_same = |a: f64, b: f64| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan();
-        self.difference = (piece.iter().zip(begin..))
-            .find(|&(&is, i)| !is_same(is, expected(i)))
-            .map(|(is, i)| differs(name, table.id[i], is, expected(i)));
+        let instead = |i: usize| digits.of(expected(self.row(i)));
+        let difference = (piece.iter().zip(begin..))
+            .find(|&(&is, i)| !is_same(is, instead(i)))
+            .map(|(is, i)| differs(name, self.table.id[self.row(i)], is, instead(i)));
+        self.difference = difference;
     }
 
     /// What the numbers stand for.
@@ -144,7 +182,7 @@ impl<'t> Found<'t> {
 
     /// A column of so many words.
     fn words<'w>(&mut self, name: &str, count: usize, word: impl Fn(usize) -> &'w str) {
-        if !WORDS.contains(&name) || count != self.table.len() {
+        if !self.words.contains(&name) || count != self.len() {
             return;
         }
         self.rows.insert(name.to_owned(), count);
@@ -153,49 +191,46 @@ impl<'t> Found<'t> {
             .find(|&i| word(i) != self.expected_word(name, i))
             .map(|i| {
                 let instead = quoted(self.expected_word(name, i));
-                differs(name, self.table.id[i], quoted(word(i)), instead)
+                differs(name, self.table.id[self.row(i)], quoted(word(i)), instead)
             });
         self.difference = self.difference.take().or(difference);
     }
 
     fn expected_word(&self, name: &str, i: usize) -> &'t str {
-        let table = self.table;
+        let (table, i) = (self.table, self.row(i));
         match name {
             "kind" => table.kind[i].name(),
             "side" => table.side[i].name(),
-            _ => {
-                let body = table.body[i].and_then(|b| table.bodies.get(usize::from(b)));
-                body.map_or("", String::as_str)
-            }
+            _ => table.body_name(i).unwrap_or(""),
         }
     }
 
     /// Whether nothing differs and nothing lacks.
     fn end(mut self) -> Result<(), String> {
-        let table = self.table;
+        let len = self.len();
         // Numbers of bodies have no names where there are no bodies.
         if let Some(codes) = self.codes.remove("body")
-            && codes.len() == table.len()
+            && codes.len() == len
             && codes.iter().all(|&code| code == -1.0)
         {
             self.words("body", codes.len(), |_| "");
         }
         let rows = |name: &str| self.rows.get(name).copied();
-        if let Some(rows) = rows("x").filter(|&rows| rows != table.len()) {
+        if let Some(rows) = rows("x").filter(|&rows| rows != len) {
             return Err(format!(
-                "read again, it has {rows} particles instead of {}; this is a fault of the disk or of sphpack, try another format",
-                table.len()
+                "read again, it has {rows} particles instead of {len}; this is a fault of the disk or of sphpack, try another format"
             ));
         }
         if let Some(difference) = self.difference {
             return Err(difference);
         }
         let is_whole = |name: &str| match rows(name) {
-            Some(rows) => rows == table.len(),
+            Some(rows) => rows == len,
             // Files of the plane may leave out what is 0 there.
-            None => table.dimension == 2 && matches!(name, "z" | "nz"),
+            None => self.table.dimension == 2 && matches!(name, "z" | "nz"),
         };
-        let mut needed = (self.expected.iter()).map(|&(name, _)| name).chain(WORDS);
+        let numbers = (self.expected.iter()).map(|&(name, ..)| name);
+        let mut needed = numbers.chain(self.words.iter().copied());
         (needed.find(|name| !is_whole(name))).map_or(Ok(()), |name| Err(lacks(name)))
     }
 }

@@ -40,6 +40,7 @@ fn tables() -> impl Strategy<Value = Table> {
                 spacing: 0.1,
                 smoothing_length: 0.12,
                 density: vec![2.5, 1e-3, 7.8, 1e3],
+                ..Shared::default()
             },
             ..Table::default()
         };
@@ -270,6 +271,7 @@ fn sizes_and_densities_are_every_particles_own_or_what_all_share() {
         spacing: 0.25,
         smoothing_length: 0.3,
         density: vec![2.0, 3.0, 4.0],
+        ..Shared::default()
     };
     for (body, density) in [(Some(0), 2.0), (Some(1), 3.0), (None, 4.0)] {
         table.body = vec![body];

@@ -50,3 +50,24 @@ pub(super) fn check(table: &Table) -> io::Result<()> {
     }
     Ok(())
 }
+
+/// Refuses numbers that 32 bits are too few for; `row` has a particle's, by name.
+pub(super) fn check_single(
+    table: &Table,
+    row: &dyn Fn(usize) -> Vec<(&'static str, f64)>,
+) -> io::Result<()> {
+    for i in 0..table.len() {
+        let row = row(i);
+        let is_beyond = |number: f64| !(number as f32).is_finite();
+        if let Some((name, number)) = row.iter().find(|(_, number)| is_beyond(*number)) {
+            return Err(io::Error::new(
+                io::ErrorKind::InvalidData,
+                format!(
+                    "{name} of particle {} is {number:e}, too large for the 32 bits that this format has; use other units, or another format",
+                    table.id[i]
+                ),
+            ));
+        }
+    }
+    Ok(())
+}

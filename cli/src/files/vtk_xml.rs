@@ -110,7 +110,7 @@ fn field(column: &str, name: &str, code: usize) -> String {
 }
 
 /// A name as an attribute's value.
-fn escaped(name: &str) -> String {
+pub(super) fn escaped(name: &str) -> String {
     let mut text = String::new();
     for letter in name.chars() {
         match letter {

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::Columns;
 use super::number_type::{ByteOrder, NumberType};
 use super::vtk_xml::unescaped;
+use super::xml_tag::Tag;
 use crate::Error;
 
 /// Reads particles: points, every point array of one component, and `normal`. Arrays of integers with fields `NAME:WORD`, or one
@@ -38,45 +39,6 @@ const MARK: &[u8] = b"<AppendedData";
 
 fn find(bytes: &[u8], what: &[u8]) -> Option<usize> {
     bytes.windows(what.len()).position(|window| window == what)
-}
-
-/// An opening tag: its name and what it says.
-struct Tag<'a> {
-    name: &'a str,
-    attributes: BTreeMap<&'a str, &'a str>,
-    /// What follows it.
-    rest: &'a str,
-}
-
-impl<'a> Tag<'a> {
-    /// The next tag of `text`.
-    fn next(text: &'a str) -> Option<Self> {
-        let start = text.find('<')? + 1;
-        let length = text[start..].find('>')?;
-        let inner = text[start..start + length].trim_end_matches('/');
-        let (name, mut list) = inner.split_once(char::is_whitespace).unwrap_or((inner, ""));
-        let mut attributes = BTreeMap::new();
-        while let Some((key, after)) = list.split_once('=') {
-            let after = after.trim_start();
-            let Some(quote) = after.chars().next().filter(|c| matches!(c, '"' | '\'')) else {
-                break;
-            };
-            let Some((value, more)) = after[1..].split_once(quote) else {
-                break;
-            };
-            attributes.insert(key.trim(), value);
-            list = more;
-        }
-        Some(Self {
-            name,
-            attributes,
-            rest: &text[start + length + 1..],
-        })
-    }
-
-    fn get(&self, key: &str) -> &'a str {
-        self.attributes.get(key).copied().unwrap_or("")
-    }
 }
 
 /// Where the appended numbers begin and end, and how long the length before each array is.

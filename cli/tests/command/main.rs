@@ -19,6 +19,7 @@ mod measuring;
 mod particle_files;
 mod precedence;
 mod sides;
+mod solver_files;
 mod sound;
 mod surroundings;
 mod touching_shells;
