@@ -123,7 +123,7 @@ impl Settling {
         let at_least = Self::LEVELLING * (h_over_spacing / 1.2).min(1.0).powi(4);
         let (most, from) = match (dimension, kernel) {
             (3, KernelKind::WendlandC2) => (60.0, 1.2),
-            (3, KernelKind::WendlandC4) => (100.0, 1.4),
+            (3, KernelKind::WendlandC4) => (200.0, 1.4),
             (3, KernelKind::WendlandC6) => (200.0, 1.6),
             _ => return at_least,
         };
