@@ -1,6 +1,7 @@
 //! What is known about a packing, for machines: the content of report.json.
 
 use serde::Serialize;
+use sphpack_geometry::Moments;
 use sphpack_packing::{
     DensityQuality, HistoryPoint, MassCorrection, ResidualQuality, SurfaceQuality, SymmetricDensity,
 };
@@ -143,8 +144,44 @@ pub struct BodyReport {
     pub volume: f64,
     /// Density × `volume`.
     pub mass: f64,
+    /// A solid as a rigid body; `None` of voids and containers, and of what goes on beyond the sides of the box.
+    pub rigid: Option<RigidReport>,
     /// What was mended before it was packed, a sentence each.
     pub repairs: Vec<String>,
+}
+
+/// A solid as a rigid body, by its surface and by its particles.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RigidReport {
+    /// Of the true body.
+    pub exact: Rigid,
+    /// Of its particles, as points; `None` where it has none.
+    pub particles: Option<Rigid>,
+}
+
+/// What a rigid body is to who turns it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Rigid {
+    /// Density × volume (area in 2-D).
+    pub mass: f64,
+    /// Centre of mass, D coordinates, scene units.
+    pub center: Vec<f64>,
+    /// Tensor of inertia about the centre of mass, along the scene's axes: three rows. In 2-D, where bodies turn about z, of a flat
+    /// plate; the last entry is the one for that.
+    pub inertia: [[f64; 3]; 3],
+}
+
+impl Rigid {
+    /// Of a body of such moments and density.
+    pub(crate) fn new<const D: usize>(moments: &Moments<D>, density: f64) -> Self {
+        Self {
+            mass: density * moments.volume,
+            center: moments.center.to_vec(),
+            inertia: moments
+                .inertia()
+                .map(|row| row.map(|entry| density * entry)),
+        }
+    }
 }
 
 /// What a correction of masses came to.

@@ -1,7 +1,8 @@
 //! The way of the data: scene, problem, particles, labels, figures.
 
+use sphpack_geometry::Moments;
 use sphpack_neighbors::{point, words};
-use sphpack_packing::{Kind, Observer, StopReason};
+use sphpack_packing::{Body, Kind, Observer, StopReason};
 use sphpack_separation::Side;
 
 use std::time::Instant;
@@ -11,6 +12,8 @@ use crate::asked::Asked;
 use crate::audit::Audit;
 use crate::auto::AutoReport;
 use crate::body_file::ReadBody;
+use crate::content::Content;
+use crate::corrected;
 use crate::dimension::{Dimension, Space, in_dimension};
 use crate::hydrostatic::AtRest;
 use crate::labels::{Sorted, sort};
@@ -18,13 +21,12 @@ use crate::methods::pack;
 use crate::opened::{Opened, opened};
 use crate::plan::{Prepared, available_bytes, judged, prepare};
 use crate::report::{
-    BodyReport, Counts, MassReport, Report, ResolutionReport, SCHEMA, SecondsReport, finite,
-    finite_surface, peak_memory_bytes,
+    BodyReport, Counts, MassReport, Report, ResolutionReport, Rigid, RigidReport, SCHEMA,
+    SecondsReport, finite, finite_surface, peak_memory_bytes,
 };
-use crate::scene::{Masses, Role, Scene};
+use crate::scene::{BodySpec, Masses, Role, Scene};
 use crate::solution::{Packing, Solution};
 use crate::table::{Shared, Table};
-use crate::{content, corrected};
 
 /// What particle files say in place of the reason why settling stopped, where the audit has found something.
 const UNSOUND: &str = "unsound";
@@ -117,8 +119,8 @@ where
         fields,
         quality,
     };
-    let volumes = content::volumes(&solution.problem, &solution);
-    let audit = Audit::of(&asked, &solution, &volumes);
+    let content = Content::of(&solution.problem, &solution);
+    let audit = Audit::of(&asked, &solution, &content.volumes);
     let mut table = table(scene, &solution).kept_by_id(&solution.keep);
     if !audit.passed && solution.packed.stop_reason == StopReason::Converged {
         table.stop_reason = UNSOUND.to_owned();
@@ -131,7 +133,7 @@ where
     {
         table.stop_reason = INACCURATE.to_owned();
     }
-    let mut report = report(scene, &solution, &volumes, audit, &table, built);
+    let mut report = report(scene, &solution, &content, audit, &table, built);
     report.seconds.measuring = measuring.elapsed().as_secs_f64();
     report.seconds.total += report.seconds.measuring;
     report.auto = auto;
@@ -337,10 +339,24 @@ fn resolution<const D: usize>(solution: &Solution<D>) -> Option<ResolutionReport
     })
 }
 
+/// A solid as a rigid body, where its moments are known.
+fn rigid<const D: usize>(
+    body: &Body<D>,
+    spec: &BodySpec,
+    particles: Option<&Moments<D>>,
+) -> Option<RigidReport> {
+    let exact = (spec.role == Role::Solid).then(|| body.surface.moments())??;
+    let of = |moments: &Moments<D>| Rigid::new(moments, spec.density);
+    Some(RigidReport {
+        exact: of(&exact),
+        particles: particles.map(of),
+    })
+}
+
 fn report<const D: usize>(
     scene: &Scene,
     solution: &Solution<D>,
-    volumes: &[f64],
+    content: &Content<D>,
     audit: Audit,
     table: &Table,
     built: f64,
@@ -357,12 +373,14 @@ fn report<const D: usize>(
             .filter(|&i| table.kind[i] != Kind::Frozen && table.side[i] == side)
             .count()
     };
-    let bodies = (problem.bodies.iter().zip(&scene.body).zip(volumes))
-        .map(|((body, spec), &volume)| BodyReport {
+    let held = content.volumes.iter().zip(&content.moments);
+    let bodies = (problem.bodies.iter().zip(&scene.body).zip(held))
+        .map(|((body, spec), (&volume, moments))| BodyReport {
             name: body.name.clone(),
             volume_true: body.surface.volume(),
             volume,
             mass: spec.density * volume,
+            rigid: rigid(body, spec, moments.as_ref()),
             repairs: Vec::new(),
         })
         .collect();

@@ -29,6 +29,7 @@ mod error;
 mod level_inset;
 mod level_set;
 mod mesh;
+mod moments;
 mod outline;
 mod placed;
 mod read;
@@ -56,6 +57,7 @@ pub use error::{
 pub use level_inset::LevelInset;
 pub use level_set::{LevelSet, cut_on_grid};
 pub use mesh::{EDGE_DEGREES, Mesh};
+pub use moments::{MomentSums, Moments};
 pub use outline::{
     CORNER_DEGREES, MITRE_LIMIT, Outline, angle_sum, crossing_number, winding_number,
 };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sphpack_neighbors::Bounds;
 
 use crate::surface::{Closest, Features, Surface};
-use crate::{GeometryError, InsetError, ParameterError, Similarity};
+use crate::{GeometryError, InsetError, Moments, ParameterError, Similarity};
 
 /// Any surface under a [`Similarity`]: queries are carried back, answers forward. Outlines and meshes need it not:
 /// they transform their vertices.
@@ -62,6 +62,10 @@ impl<const D: usize> Surface<D> for Placed<D> {
 
     fn volume(&self) -> f64 {
         self.surface.volume() * self.place.scale().powi(D as i32)
+    }
+
+    fn moments(&self) -> Option<Moments<D>> {
+        Some(self.surface.moments()?.placed(&self.place))
     }
 
     /// The box around the carried box: not always the smallest where it is turned.

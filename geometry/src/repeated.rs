@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use sphpack_neighbors::{Bounds, Domain, Odometer, point};
 
-use crate::GeometryError;
 use crate::surface::{Closest, Features, Surface};
+use crate::{GeometryError, Moments};
 
 /// A surface in a box with periodic axes: whoever asks what is near, or inside, sees the images too.
 ///
@@ -120,6 +120,10 @@ impl<const D: usize> Surface<D> for Repeated<D> {
 
     fn volume(&self) -> f64 {
         self.surface.volume()
+    }
+
+    fn moments(&self) -> Option<Moments<D>> {
+        self.surface.moments()
     }
 
     fn bounds(&self) -> Bounds<D> {

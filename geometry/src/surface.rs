@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use sphpack_neighbors::{Bounds, Domain};
 
-use crate::GeometryError;
+use crate::{GeometryError, Moments};
 
 mod pointers;
 
@@ -81,6 +81,12 @@ pub trait Surface<const D: usize>: Send + Sync + std::fmt::Debug {
 
     /// Area (2-D) or volume (3-D) that the surface encloses.
     fn volume(&self) -> f64;
+
+    /// Volume, centre and second moments of the body; `None` where they are not known: of insets, and of what goes on beyond the sides of a
+    /// box. Of a body with images across periodic sides, those of the one.
+    fn moments(&self) -> Option<Moments<D>> {
+        None
+    }
 
     /// The smallest axis-aligned box around the body.
     fn bounds(&self) -> Bounds<D>;

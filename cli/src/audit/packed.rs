@@ -6,7 +6,7 @@ use sphpack_packing::Packed;
 
 use super::Audit;
 use crate::asked::Asked;
-use crate::content;
+use crate::content::Content;
 use crate::labels::{Sorted, sort};
 use crate::solution::Solution;
 
@@ -66,7 +66,7 @@ impl<const D: usize> Audited for Packed<D> {
             fields,
             quality,
         };
-        let volumes = content::volumes(&solution.problem, &solution);
+        let volumes = Content::of(&solution.problem, &solution).volumes;
         let audit = Audit::of(&asked, &solution, &volumes);
         if audit.passed {
             Ok(audit)

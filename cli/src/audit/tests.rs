@@ -5,7 +5,7 @@ use sphpack_separation::Side;
 
 use super::Audit;
 use crate::asked::Asked;
-use crate::content;
+use crate::content::Content;
 use crate::run::{Options, run};
 use crate::scene::Scene;
 use crate::solution::{Packing, Solution};
@@ -37,7 +37,7 @@ fn after(damage: impl Fn(&mut Solution<2>)) -> Audit {
     let packed = &solution.packed;
     solution.fields = packed.fields(packed.kernel, packed.h_over_spacing);
     solution.quality = packed.quality_by(&solution.fields);
-    let volumes = content::volumes(&solution.problem, &solution);
+    let volumes = Content::of(&solution.problem, &solution).volumes;
     Audit::of(&Asked::by(&scene), &solution, &volumes)
 }
 
@@ -156,7 +156,7 @@ fn a_hole_in_the_density_is_found() {
 #[test]
 fn sums_that_are_not_those_of_the_neighbours_are_found() {
     let (scene, mut solution) = packed();
-    let volumes = content::volumes(&solution.problem, &solution);
+    let volumes = Content::of(&solution.problem, &solution).volumes;
     let i = (solution.packed.particles.kind.iter())
         .position(|&kind| kind != Kind::Frozen)
         .expect("a particle");

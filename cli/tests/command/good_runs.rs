@@ -113,7 +113,7 @@ fn a_cylinder_with_every_file() {
     assert_eq!(keys(&report["surface"][0]).len(), 7);
     assert_eq!(
         keys(&report["bodies"][0]),
-        ["mass", "name", "repairs", "volume", "volume_true"]
+        ["mass", "name", "repairs", "rigid", "volume", "volume_true"]
     );
     assert_eq!(keys(&report["history"][0]).len(), 5);
     assert_eq!(report["converged"], true);

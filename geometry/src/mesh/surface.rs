@@ -6,8 +6,8 @@ use sphpack_neighbors::{Bounds, point};
 
 use super::triangle::{self, Meeting, Part};
 use super::{Mesh, inset};
-use crate::GeometryError;
 use crate::surface::{Closest, Feature, Features, Surface};
+use crate::{GeometryError, Moments};
 
 /// Directions of the rays of [`Surface::inside`]: +x, then others that no regular mesh is aligned with.
 const RAYS: [[f64; 3]; 4] = [
@@ -121,6 +121,14 @@ impl Surface<3> for Mesh {
 
     fn volume(&self) -> f64 {
         self.volume
+    }
+
+    fn moments(&self) -> Option<Moments<3>> {
+        let triangles = self.triangles.iter();
+        let corners = triangles.map(|t| t.map(|v| self.vertices[v as usize]));
+        Moments::of_sides(self.bounds().center(), corners, |&[a, b, c]| {
+            point::dot(a, point::cross(b, c)) / 6.0
+        })
     }
 
     fn bounds(&self) -> Bounds<3> {

@@ -8,7 +8,7 @@ use super::{Outline, inside::crosses};
 use crate::sample::{Candidates, Ring, along};
 use crate::segment::{Segment, cross};
 use crate::surface::{Closest, Feature, Features, Surface};
-use crate::{GeometryError, ParameterError};
+use crate::{GeometryError, Moments, ParameterError};
 
 impl Outline {
     /// What side `i` answers to `p`, to which it is the nearest.
@@ -118,6 +118,14 @@ impl Surface<2> for Outline {
 
     fn volume(&self) -> f64 {
         self.area
+    }
+
+    fn moments(&self) -> Option<Moments<2>> {
+        let sides =
+            (0..self.points.len()).map(|i| [self.points[i], self.points[self.next[i] as usize]]);
+        Moments::of_sides(self.bounds().center(), sides, |[a, b]| {
+            0.5 * (a[0] * b[1] - a[1] * b[0])
+        })
     }
 
     fn bounds(&self) -> Bounds<2> {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sphpack_neighbors::{Bounds, point};
 
 use crate::surface::{Closest, Feature, Features, Surface};
-use crate::{GeometryError, InsetError, ParameterError};
+use crate::{GeometryError, InsetError, Moments, ParameterError};
 
 /// A circle (`D` = 2) or sphere (`D` = 3). Every query is O(1).
 ///
@@ -85,6 +85,11 @@ impl<const D: usize> Surface<D> for Ball<D> {
 
     fn volume(&self) -> f64 {
         Self::unit_content() * self.radius.powi(D as i32)
+    }
+
+    fn moments(&self) -> Option<Moments<D>> {
+        let along = Surface::<D>::volume(self) * self.radius * self.radius / (D as f64 + 2.0);
+        Some(Moments::along_axes(self.volume(), self.center, [along; D]))
     }
 
     fn bounds(&self) -> Bounds<D> {

@@ -7,7 +7,7 @@ use sphpack_neighbors::{Bounds, point};
 use crate::sample::patches::{Patch, are_needed, over};
 use crate::sample::scattered;
 use crate::surface::{Closest, Feature, Features, Surface};
-use crate::{GeometryError, InsetError, ParameterError};
+use crate::{GeometryError, InsetError, Moments, ParameterError};
 
 /// A rectangle (`D` = 2) or box (`D` = 3) along the axes; [`Placed`](crate::Placed) turns it. Every query is O(1).
 ///
@@ -109,6 +109,12 @@ impl<const D: usize> Surface<D> for Cuboid<D> {
 
     fn volume(&self) -> f64 {
         self.bounds.volume()
+    }
+
+    fn moments(&self) -> Option<Moments<D>> {
+        let volume = self.volume();
+        let along = self.bounds.size().map(|edge| volume * edge * edge / 12.0);
+        Some(Moments::along_axes(volume, self.bounds.center(), along))
     }
 
     fn bounds(&self) -> Bounds<D> {

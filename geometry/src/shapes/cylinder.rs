@@ -9,7 +9,7 @@ use super::perpendicular;
 use crate::sample::patches::{Patch, are_needed, over};
 use crate::sample::scattered;
 use crate::surface::{Closest, Feature, Features, Surface};
-use crate::{GeometryError, InsetError, Mesh, ParameterError};
+use crate::{GeometryError, InsetError, Mesh, Moments, ParameterError};
 
 /// Sides of the polyline that stands for each rim in [`Surface::features`].
 const RIM_SIDES: usize = 360;
@@ -150,6 +150,21 @@ impl Surface<3> for Cylinder {
 
     fn volume(&self) -> f64 {
         PI * self.radius * self.radius * self.length
+    }
+
+    fn moments(&self) -> Option<Moments<3>> {
+        let volume = self.volume();
+        let center = point::add_scaled(self.start, 0.5 * self.length, self.axis);
+        let spread = [
+            self.length * self.length / 12.0,
+            self.radius * self.radius / 4.0,
+        ];
+        Some(Moments::around_axis(
+            volume,
+            center,
+            self.axis,
+            spread.map(|mean| volume * mean),
+        ))
     }
 
     fn bounds(&self) -> Bounds<3> {

@@ -9,7 +9,7 @@ use sphpack_neighbors::{Bounds, gauss, point};
 
 use crate::level_inset::LevelInset;
 use crate::surface::{Closest, Feature, Features, Surface};
-use crate::{GeometryError, InsetError, ParameterError};
+use crate::{GeometryError, InsetError, Moments, ParameterError};
 
 /// Most steps of the root search; seven or so are used.
 const MAX_STEPS: usize = 100;
@@ -168,6 +168,12 @@ impl<const D: usize> Surface<D> for Ellipsoid<D> {
     fn volume(&self) -> f64 {
         let unit = if D == 2 { PI } else { 4.0 * PI / 3.0 };
         unit * self.semi_axes.iter().product::<f64>()
+    }
+
+    fn moments(&self) -> Option<Moments<D>> {
+        let volume = self.volume();
+        let along = self.semi_axes.map(|a| volume * a * a / (D as f64 + 2.0));
+        Some(Moments::along_axes(volume, self.center, along))
     }
 
     fn bounds(&self) -> Bounds<D> {

@@ -9,7 +9,7 @@ use super::perpendicular;
 use crate::sample::patches::{Patch, are_needed, over};
 use crate::sample::scattered;
 use crate::surface::{Closest, Feature, Features, Surface};
-use crate::{GeometryError, InsetError, ParameterError};
+use crate::{GeometryError, InsetError, Moments, ParameterError};
 
 /// Pieces around the tube at least where points are scattered: its outer side has more area than its inner one.
 const LEAST_AROUND: f64 = 16.0;
@@ -96,6 +96,18 @@ impl Surface<3> for Torus {
 
     fn volume(&self) -> f64 {
         2.0 * PI * PI * self.major * self.minor * self.minor
+    }
+
+    fn moments(&self) -> Option<Moments<3>> {
+        let volume = self.volume();
+        let [major, minor] = [self.major, self.minor].map(|radius| radius * radius);
+        let spread = [minor / 4.0, major / 2.0 + 3.0 * minor / 8.0];
+        Some(Moments::around_axis(
+            volume,
+            self.center,
+            self.axis,
+            spread.map(|mean| volume * mean),
+        ))
     }
 
     fn bounds(&self) -> Bounds<3> {

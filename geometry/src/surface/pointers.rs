@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sphpack_neighbors::{Bounds, Domain};
 
 use super::{Closest, Features, Surface};
-use crate::GeometryError;
+use crate::{GeometryError, Moments};
 
 macro_rules! passed_on {
     ($($pointer:ty)*) => {
@@ -29,6 +29,10 @@ macro_rules! passed_on {
 
                 fn volume(&self) -> f64 {
                     (**self).volume()
+                }
+
+                fn moments(&self) -> Option<Moments<D>> {
+                    (**self).moments()
                 }
 
                 fn bounds(&self) -> Bounds<D> {
@@ -146,6 +150,10 @@ mod tests {
             vec![Some(HIT); points.len() + 3]
         }
 
+        fn moments(&self) -> Option<Moments<2>> {
+            Some(Moments::along_axes(13.0, [0.5, 0.0], [3.0, 4.0]))
+        }
+
         fn inside_batch(&self, points: &[[f64; 2]]) -> Vec<bool> {
             vec![true; points.len() + 4]
         }
@@ -158,6 +166,7 @@ mod tests {
         assert!(surface.inside([4.0, 0.0]) && !surface.inside([2.0, 0.0]));
         assert_eq!([surface.measure(), surface.volume()], [11.0, 13.0]);
         assert_eq!(surface.bounds(), Odd.bounds());
+        assert_eq!(surface.moments(), Odd.moments());
         assert_eq!(surface.features(), Odd.features());
         assert_eq!(surface.window(), Odd.window());
         let inset = surface.inset(0.5).map(|_| ());

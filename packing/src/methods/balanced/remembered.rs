@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use sphpack_geometry::{Closest, Features, GeometryError, Surface};
+use sphpack_geometry::{Closest, Features, GeometryError, Moments, Surface};
 use sphpack_neighbors::{Bounds, Domain};
 
 /// Answers by what was asked for.
@@ -77,6 +77,10 @@ impl<const D: usize> Surface<D> for Remembered<D> {
 
     fn volume(&self) -> f64 {
         self.surface.volume()
+    }
+
+    fn moments(&self) -> Option<Moments<D>> {
+        self.surface.moments()
     }
 
     fn bounds(&self) -> Bounds<D> {
