@@ -25,24 +25,28 @@ fn counted<const D: usize>(body: &dyn Surface<D>, cells: usize) -> Moments<D> {
     sums.moments().expect("some are inside")
 }
 
-fn check<const D: usize>(body: &dyn Surface<D>, cells: usize, within: f64) {
-    let (exact, counted) = (body.moments().expect("known"), counted(body, cells));
+/// Cells along an edge: they tell the volume to some per cent, and the others, which are parts of the body's size, much better.
+const CELLS: [usize; 2] = [200, 60];
+
+fn check<const D: usize>(body: &dyn Surface<D>) {
+    let exact = body.moments().expect("known");
+    let counted = counted(body, CELLS[D - 2]);
     let size = body.bounds().diagonal();
     assert!(
         (exact.volume / body.volume() - 1.0).abs() < 1e-12,
         "{body:?}"
     );
     assert!(
-        (exact.volume / counted.volume - 1.0).abs() < within,
+        (exact.volume / counted.volume - 1.0).abs() < 0.03,
         "{body:?}"
     );
     assert!(
-        point::distance(exact.center, counted.center) < within * size,
+        point::distance(exact.center, counted.center) < 0.003 * size,
         "{body:?}"
     );
     for (is, should) in exact.inertia().iter().zip(counted.inertia()) {
         assert!(
-            point::distance(*is, should) < 2.0 * within * exact.volume * size * size,
+            point::distance(*is, should) < 0.003 * exact.volume * size * size,
             "{body:?} {exact:?} {counted:?}"
         );
     }
@@ -58,24 +62,24 @@ proptest! {
             Arc::new(Ball::new(shift, a).unwrap()),
             Arc::new(Cuboid::new([-a, 0.0, b], [b, c, 2.0]).unwrap()),
             Arc::new(Cylinder::new(shift, point::add(shift, sizes), a).unwrap()),
-            Arc::new(Torus::new(shift, sizes, 1.0 + a, b * 0.5).unwrap()),
+            Arc::new(Torus::new(shift, sizes, b + 0.1, b).unwrap()),
             Arc::new(Ellipsoid::new(shift, sizes).unwrap()),
         ];
         let place = Similarity::<3>::new(1.7, [0.3, -1.0, 0.2], degrees, shift).unwrap();
         for shape in shapes {
-            check(shape.as_ref(), 40, 0.02);
-            check(&Placed::new(shape, place), 40, 0.02);
+            check(shape.as_ref());
+            check(&Placed::new(shape, place));
         }
         let at = |[x, y, _]: [f64; 3]| [x, y];
-        check(&Ellipsoid::new(at(shift), [a, b]).unwrap(), 200, 0.01);
-        check(&Ball::new(at(shift), a).unwrap(), 200, 0.01);
-        check(&Cuboid::new([-a, b], [c, 2.0]).unwrap(), 200, 0.01);
+        check(&Ellipsoid::new(at(shift), [a, b]).unwrap());
+        check(&Ball::new(at(shift), a).unwrap());
+        check(&Cuboid::new([-a, b], [c, 2.0]).unwrap());
         let ring = Outline::new(vec![
             vec![[-a, -1.0], [1.0, -b], [1.5, 1.0], [-0.5, 1.2]],
             vec![[0.0, 0.0], [0.3, 0.1], [0.3, 0.3], [0.0, 0.3]],
         ]).unwrap();
         let turn = Similarity::<2>::new(0.6, degrees, at(shift)).unwrap();
-        check(&ring.transformed(&turn), 200, 0.01);
+        check(&ring.transformed(&turn));
     }
 }
 
