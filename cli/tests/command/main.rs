@@ -18,6 +18,7 @@ mod limits;
 mod measuring;
 mod particle_files;
 mod precedence;
+mod rigid;
 mod sides;
 mod solver_files;
 mod sound;
