@@ -175,7 +175,7 @@ mod tests {
             panic!("no list");
         };
         assert_eq!(&text[list.get(1).unwrap().span()], "-2.5e3");
-        assert!(list.get(0).unwrap().get_ref().is_integer());
+        assert!(list.first().unwrap().get_ref().is_integer());
         let inner = list.get(2).unwrap().get_ref().as_table().unwrap();
         assert_eq!(inner.get("q\"ä").unwrap().get_ref().as_str(), Some("x"));
     }

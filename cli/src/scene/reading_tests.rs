@@ -133,7 +133,7 @@ fn solvers_words_are_read_and_said() {
     assert_eq!(ratio("hdx = 1.3").h_over_spacing, Some(1.3));
     assert_eq!(ratio("hdp = 1.3").h_over_spacing, Some(1.3));
     assert_eq!(ratio("h = 0.12").h_over_spacing, Some(1.2));
-    assert_eq!(ratio("coefh = 1").h_over_spacing, Some(1.414213562373));
+    assert_eq!(ratio("coefh = 0.7").h_over_spacing, Some(0.9899494936612));
     assert!(ratio("h = 0.12").given.has("h_over_spacing"));
     let json = serde_json::to_string(&parse(&format!("{DISC}[packing]\nh = 0.12"))).unwrap();
     assert!(
@@ -144,10 +144,10 @@ fn solvers_words_are_read_and_said() {
     assert_eq!(scene.judge().1, 1.4);
     assert_eq!(scene.notes, ["quality.hdx is read as h_over_spacing"]);
     // The dimension is known when files are opened.
-    let mut scene = parse(&format!("{PART}[packing]\ncoefh = 1.0"));
+    let mut scene = parse(&format!("{PART}[packing]\ncoefh = 0.7"));
     assert_eq!(scene.packing.h_over_spacing, None);
     scene.settle_diagonals(3);
-    assert_eq!(scene.packing.h_over_spacing, Some(1.732050807569));
+    assert_eq!(scene.packing.h_over_spacing, Some(1.212435565298));
     assert_eq!(scene.packing.h_over_diagonal, None);
 }
 
@@ -159,7 +159,7 @@ fn two_words_for_the_same_are_refused() {
         &["dp and spacing are both given"],
     );
     refuse(
-        &format!("dp = 0.1\ndx = 0.1\n[domain]"),
+        "dp = 0.1\ndx = 0.1\n[domain]",
         1,
         &["dp and dx are both given"],
     );
