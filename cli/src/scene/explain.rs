@@ -100,6 +100,17 @@ fn cure(key: &str, found: &str, wanted: &str) -> Option<String> {
     if found == "unit variant" && key == "shape" {
         return Some("a shape needs its measures: see `sphpack list shapes`, such as shape = { circle = { center = [0, 0], radius = 1 } }".into());
     }
+    if wanted.starts_with("struct ") && !found.starts_with("map") {
+        let shape = SHAPES.iter().find(|shape| shape.name == key);
+        let example = match (shape, key) {
+            (Some(shape), _) => format!("shape = {}", shape.example),
+            (None, "rotate") => "rotate = { axis = [0, 0, 1], degrees = 30 }".into(),
+            (None, _) => format!("{key} = {{ … }}"),
+        };
+        return Some(format!(
+            "{key} has keys of its own; write them in braces: {example}"
+        ));
+    }
     if let Some(text) = text {
         let as_number = text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
         let of_inset = wanted.contains("a number") && as_number.is_some();

@@ -37,6 +37,8 @@ fn refused(text: &str, error: &serde_json::Error) -> Wrong {
         .map_or(&*words, |(words, _)| words);
     let message = if words.contains("recursion limit") {
         TOO_DEEP.into()
+    } else if !text.trim_start().starts_with(['{', '[']) {
+        "this is not JSON, which begins with {; give a scene in TOML the ending .toml".into()
     } else {
         format!("this is not JSON: {words}")
     };
@@ -187,6 +189,7 @@ mod tests {
             ("[1]", 0, "is an object"),
             ("{\"a\": 1, \"a\": 2}", 9, "\"a\" stands here twice"),
             ("{\"a\": [null]}", 7, "null stands in a list"),
+            ("spacing = 1", 0, "the ending .toml"),
             ("", 0, "not JSON"),
         ] {
             let wrong = table(text).unwrap_err();

@@ -76,6 +76,7 @@ fn values_of_the_wrong_kind_are_told_how_to_be_right() {
     );
     for (line, part) in [
         ("role = \"fluid\"", "between the bodies"),
+        ("rotate = 3", "in braces: rotate = { axis"),
         ("surface = \"0.25\"", "surface = 0.25"),
         ("precedence = \"1\"", "precedence = 1"),
         ("[packing]\nseed = \"1\"", "seed = 1"),
@@ -87,6 +88,12 @@ fn values_of_the_wrong_kind_are_told_how_to_be_right() {
         let number = 7 + line.lines().count();
         refuse(&format!("{DISC}{line}"), number, &[part]);
     }
+    refuse_disc(
+        "{ center = [0.0, 0.0], radius = 1.0 }",
+        "1",
+        7,
+        &["in braces: shape = { circle = { center"],
+    );
     refuse_disc(
         "[2, 2]",
         "[2, 2]\nperiodic = true",
