@@ -8,16 +8,8 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::Scene;
 use super::fault::Key;
+use super::wrong::Wrong;
 use super::{json, slips};
-
-/// What is wrong with a text, and where.
-#[derive(Debug)]
-pub(super) struct Wrong {
-    /// The bytes that it is about.
-    pub(super) at: Option<Range<usize>>,
-    /// What is wrong, and the cure.
-    pub(super) message: String,
-}
 
 /// The values of a text.
 #[derive(Debug)]
@@ -94,14 +86,4 @@ fn key_in(table: &DeTable<'_>, byte: usize) -> Option<Range<usize>> {
         let is_here = || value.span().contains(&byte);
         inner.or_else(|| is_here().then(|| key.span()))
     })
-}
-
-/// Line and column, counted from 1, of a byte.
-pub(super) fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
-    let before = text.get(..byte).unwrap_or(text);
-    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-    (
-        before.matches('\n').count() + 1,
-        before[line_start..].chars().count() + 1,
-    )
 }

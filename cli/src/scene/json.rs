@@ -6,8 +6,8 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::document::Wrong;
-use super::explain::TOO_DEEP;
+use super::parser_words::TOO_DEEP;
+use super::wrong::Wrong;
 
 /// The values of a text in JSON. A key whose value is null is left out, as a report writes it.
 pub(super) fn table(text: &str) -> Result<Spanned<DeTable<'_>>, Wrong> {

@@ -7,8 +7,9 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::Scene;
-use super::document::{Document, Wrong};
+use super::document::Document;
 use super::nearest::advice;
+use super::wrong::Wrong;
 
 /// A unit of length.
 #[derive(Debug, Clone, Copy, PartialEq)]

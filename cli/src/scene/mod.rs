@@ -16,6 +16,7 @@ mod nearest;
 mod options;
 mod output;
 mod parse;
+mod parser_words;
 #[cfg(test)]
 mod reading_tests;
 mod refinement;
@@ -26,6 +27,7 @@ mod tables;
 mod template;
 #[cfg(test)]
 mod tests;
+mod wrong;
 
 use std::path::{Path, PathBuf};
 

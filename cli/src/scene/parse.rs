@@ -6,9 +6,10 @@ use std::path::Path;
 use toml::de::DeValue;
 
 use super::check::{MAX_BODIES, too_many_bodies};
-use super::document::{Document, Wrong, line_and_column};
+use super::document::Document;
 use super::explain::typed;
 use super::fault::{Fault, Key};
+use super::wrong::{Wrong, line_and_column};
 use super::{Given, Scene, length_unit, solver_words, tables};
 use crate::Error;
 

@@ -1,7 +1,7 @@
 //! Slips of the pen that leave a text no TOML at all: brackets, quotes and marks that are missing.
 
-use super::document::Wrong;
-use super::explain::parser_words;
+use super::parser_words::parser_words;
+use super::wrong::Wrong;
 
 /// Keys that hold a list, as a person would write one.
 const LISTS: [&str; 13] = [

@@ -6,7 +6,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::Scene;
-use super::document::{Document, Wrong};
+use super::document::Document;
+use super::wrong::Wrong;
 
 /// The particle spacing, as DualSPHysics (`dp`) and PySPH (`dx`) call it.
 const SPACINGS: [&str; 2] = ["dp", "dx"];

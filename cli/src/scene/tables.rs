@@ -2,7 +2,8 @@
 
 use toml::de::{DeTable, DeValue};
 
-use super::document::{Document, Wrong};
+use super::document::Document;
+use super::wrong::Wrong;
 
 /// Lists of tables: a head in double brackets begins one more.
 const LISTS: [&[&str]; 2] = [&["body"], &["refinement", "region"]];
