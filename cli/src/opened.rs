@@ -89,7 +89,13 @@ pub(crate) fn opened(scene: &Scene) -> Result<Opened, Error> {
             periodic.len()
         ))),
         _ => {
-            let (scene, picked) = settled(scene, dimension)?;
+            // A scene that needed the dimension is another one now.
+            let mut known = scene.clone();
+            known.settle_diagonals(dimension);
+            known
+                .check()
+                .map_err(|Fault { message, .. }| fail(message))?;
+            let (scene, picked) = settled(&known, dimension)?;
             Ok(Opened {
                 scene,
                 picked,

@@ -83,8 +83,14 @@ fn words(scene: &Scene, body: &BodySpec, number: f64, factor: f64) -> Option<Str
     } else {
         format!("scale = {scale} in body \"{}\"", body.name)
     };
+    // Where nothing else scales it, a word says the same.
+    let same = match (scale == SMALLER, is_on_command_line) {
+        (false, _) => "",
+        (true, true) => " (--units mm is the same)",
+        (true, false) => " (units = \"mm\" is the same)",
+    };
     Some(format!(
-        "if {} is {units}, {cure} makes it {number:.0} spacings across",
+        "if {} is {units}, {cure} makes it {number:.0} spacings across{same}",
         file.display()
     ))
 }

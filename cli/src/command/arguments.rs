@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::number::{number, whole};
+use crate::scene::LengthUnit;
+
 /// Packs bodies and the fluid around them into evenly spread SPH particles.
 #[derive(Debug, Parser)]
 #[command(
@@ -52,6 +55,8 @@ Examples:
   sphpack pack outline.csv --spacing 0.05 --margin 0.5         rows of x,y: 2-D
   sphpack pack naca0012.dat --spacing 0.01                     an airfoil (Selig or Lednicer): 2-D
   sphpack pack drawing.svg --scale 0.001 --spacing 0.002       a drawing's closed paths: 2-D
+  sphpack pack part.stl --units mm --spacing 0.001             a body in millimetres, the spacing in metres
+  sphpack pack - -o wing.vtu < wing.json                       a scene from another program
   sphpack pack wing.toml --dry-run                             how many particles, how much memory and time
 
 A body's format is told from its content, whatever its name. It is: triangles (STL, binary or text); polygons (OBJ; PLY, binary or text); rows of x,y (a blank line ends a loop); an airfoil's coordinates; or the closed paths, polygons, rectangles, circles and ellipses of an SVG drawing, in the units of its viewBox and with y turned up: (x, y) becomes (x, -y).
@@ -64,7 +69,7 @@ A run that is killed leaves a checkpoint (see --checkpoint), one that is stopped
 
 Files are written under hidden names, read again and compared, and then get their names all together, or none does. What is complete but cannot get its name is kept beside it as NAME.rescued.ENDING. With --force a file keeps its mode and, as far as allowed, its owner; a symbolic link is replaced itself, what it points to stays.")]
 pub(super) struct PackArguments {
-    /// The scene (.toml), or a body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
+    /// The scene (.toml, .json; - reads it from standard input), or a body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
     pub(super) input: PathBuf,
     /// Write particles here (.vtu, .vtp, .vtk, .npz, .ply, .csv; for solvers .data, .xml, .bgeo, .bi4); may be repeated [default: NAME.vtu in the working directory]
     #[arg(short, long, value_name = "FILE")]
@@ -79,19 +84,22 @@ pub(super) struct PackArguments {
     #[arg(long)]
     pub(super) force: bool,
     /// Particle spacing (needed for a body, part of a scene)
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = number)]
     pub(super) spacing: Option<f64>,
     /// From the body to the sides of the box [default: 8 spacings]
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = number)]
     pub(super) margin: Option<f64>,
     /// Factor on the body's lengths [default: 1]
-    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = number)]
     pub(super) scale: Option<f64>,
+    /// The unit of the body's lengths (m, cm, mm, um, in, ft, km), for spacings in metres; instead of --scale
+    #[arg(long, value_name = "UNIT", conflicts_with = "scale")]
+    pub(super) units: Option<LengthUnit>,
     /// The method (`sphpack list methods`), instead of the scene's; "auto" picks it and its settings
     #[arg(long, value_name = "NAME")]
     pub(super) method: Option<String>,
     /// The seed of random numbers, instead of the scene's
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = whole::<u64>)]
     pub(super) seed: Option<u64>,
     /// Keep the state here every 30 s, to go on from if the run ends too early [default: the first output with the ending .checkpoint, once a run takes over a minute or is stopped]
     #[arg(long, value_name = "FILE")]
@@ -103,7 +111,7 @@ pub(super) struct PackArguments {
     #[arg(long, value_name = "SECONDS", hide = true, value_parser = seconds)]
     pub(super) checkpoint_every: Option<f64>,
     /// Threads [default: one for each core]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = whole::<usize>)]
     pub(super) threads: Option<usize>,
     /// Say how many particles and how much memory and time it would take; write nothing
     #[arg(long)]
@@ -146,13 +154,13 @@ pub(super) struct CheckArguments {
     #[arg(long, value_name = "FILE")]
     pub(super) repair: Option<PathBuf>,
     /// With --repair: close holes up to this size across
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = number)]
     pub(super) fill_holes: Option<f64>,
     /// With --repair: wrap the triangles in a new, closed mesh, on a grid with cells of this size
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = number)]
     pub(super) wrap: Option<f64>,
     /// Say what is thinner than this particle spacing
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = number)]
     pub(super) spacing: Option<f64>,
     /// Write the findings here (JSON)
     #[arg(long, value_name = "FILE")]
@@ -176,13 +184,13 @@ pub(super) struct QualityArguments {
     /// The particles (.csv, .txt, .dat, .npz, .npy, .ply, .vtu, .vtp, .vtk; .data, .xml, .bgeo, .bi4)
     pub(super) particles: PathBuf,
     /// Particle spacing, the root of a particle's volume; the finest where they differ
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = number)]
     pub(super) spacing: f64,
     /// The kernel that measures
     #[arg(long, value_name = "NAME", default_value = "quintic")]
     pub(super) kernel: String,
     /// Its smoothing length over the spacing [default: by the file's column h; else 1.2]
-    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true, value_parser = number)]
     pub(super) h_over_spacing: Option<f64>,
     /// Print JSON
     #[arg(long)]

@@ -12,6 +12,7 @@ mod interrupt;
 mod keeping;
 mod list;
 mod memory_guard;
+mod number;
 mod outputs;
 mod pack;
 mod plain_text;

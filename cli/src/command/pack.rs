@@ -29,16 +29,23 @@ use crate::table::Table;
 /// The margin around a body without a scene, in ∆s.
 const MARGIN_OVER_SPACING: f64 = 8.0;
 
+/// What a scene is called in messages that comes from there.
+const STANDARD_INPUT: &str = "standard input";
+
 pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let begin = Instant::now();
     let scene = scene(arguments)?;
     let opened = opened(&scene)?;
+    let notes = summary::notes(&scene.notes);
     // Its settings picked: a checkpoint is of these.
     let scene = opened.scene.clone();
     let files = Files::new(arguments, &scene, opened.dimension)?;
     threads::start(arguments.threads)?;
     if arguments.dry_run {
-        return dry_run(opened, &files, arguments.quiet);
+        return dry_run(opened, &files, &notes, arguments.quiet);
+    }
+    if !arguments.quiet {
+        let _ = write!(std::io::stderr(), "{notes}");
     }
     if let Some(picked) = opened.picked.as_ref().filter(|_| !arguments.quiet) {
         // A step like those that follow, no message: a refusal is one message.
@@ -63,7 +70,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     }
     let written = files.write(&scene, &mut outcome, arguments.force, begin)?;
     if !arguments.quiet {
-        say(&summary::of(&outcome, &written))?;
+        say(&format!("{notes}{}", summary::of(&outcome, &written)))?;
     }
     keeping.end(stop_reason(&outcome) == StopReason::Interrupted);
     let status = match stop_reason(&outcome) {
@@ -107,23 +114,38 @@ fn stop_reason(outcome: &Outcome) -> StopReason {
 /// The scene asked for: a file, or a body with a few words.
 fn scene(arguments: &PackArguments) -> Result<Scene, Error> {
     let input = &arguments.input;
-    let is_scene = input
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let is_piped = input == Path::new("-");
+    let is_scene = is_piped
+        || input.extension().is_some_and(|ending| {
+            ending.eq_ignore_ascii_case("toml") || ending.eq_ignore_ascii_case("json")
+        });
     let mut scene = if is_scene {
         for (name, is_given, key) in [
             ("--spacing", arguments.spacing.is_some(), "spacing"),
             ("--margin", arguments.margin.is_some(), "domain.margin"),
-            ("--scale", arguments.scale.is_some(), "scale"),
+            ("--scale", arguments.scale.is_some(), "a body's scale"),
+            ("--units", arguments.units.is_some(), "a body's units"),
         ] {
             if is_given {
                 return Err(Error::Usage(format!(
                     "{name} is for a body without a scene; {} is a scene, set {key} in it",
-                    input.display()
+                    if is_piped {
+                        STANDARD_INPUT.into()
+                    } else {
+                        input.display().to_string()
+                    }
                 )));
             }
         }
-        Scene::read(input)?
+        if !is_piped {
+            Scene::read(input)?
+        } else if arguments.output.is_empty() && !arguments.dry_run {
+            return Err(Error::Usage(
+                "a scene from standard input has no name that its particles could have; name their file: -o OUT.vtu".into(),
+            ));
+        } else {
+            Scene::read_from(std::io::stdin().lock(), STANDARD_INPUT)?
+        }
     } else {
         let Some(spacing) = arguments.spacing else {
             // A missing file is a nearer fault than a missing spacing.
@@ -140,6 +162,11 @@ fn scene(arguments: &PackArguments) -> Result<Scene, Error> {
         if let Some(scale) = arguments.scale {
             positive("--scale", scale)?;
             scene.body[0].scale = scale;
+        }
+        if let Some(unit) = arguments.units {
+            let body = &mut scene.body[0];
+            body.scale = unit.metres;
+            scene.notes.push(unit.note(&body.name));
         }
         scene
     };
@@ -162,7 +189,7 @@ fn positive(name: &str, value: f64) -> Result<(), Error> {
     )))
 }
 
-fn dry_run(opened: Opened, files: &Files, is_quiet: bool) -> Result<u8, Error> {
+fn dry_run(opened: Opened, files: &Files, notes: &str, is_quiet: bool) -> Result<u8, Error> {
     let are_held = (files.particles.iter()).any(|(_, format)| !format.is_read_by_column());
     let plan = planned_of(opened, available_bytes())?.with_files(files.picture.is_some(), are_held);
     if !is_quiet {
@@ -185,7 +212,7 @@ fn dry_run(opened: Opened, files: &Files, is_quiet: bool) -> Result<u8, Error> {
     });
     let picked = (plan.picked.as_ref()).map_or_else(String::new, summary::picked);
     say(&format!(
-        "{read}{picked}  particles  {} in the {}-D box, about {} frozen around it\n{fewer}  neighbors  about {:.0} for each particle\n  memory     about {} of {} that are free\n  time       about {} on {} threads, {evaluations} evaluations of what moves among it, each about {}; to a factor of two\nnothing was written (--dry-run)\n",
+        "{notes}{read}{picked}  particles  {} in the {}-D box, about {} frozen around it\n{fewer}  neighbors  about {:.0} for each particle\n  memory     about {} of {} that are free\n  time       about {} on {} threads, {evaluations} evaluations of what moves among it, each about {}; to a factor of two\nnothing was written (--dry-run)\n",
         crate::picture::grouped(estimate.particles as usize),
         plan.dimension,
         crate::picture::grouped(estimate.frozen as usize),

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use sphpack_packing::Problem;
 
 use super::duration::duration;
+use super::plain_text::visible;
 use crate::ReadBody;
 use crate::auto::{AutoReport, Picked};
 use crate::picture::grouped;
@@ -108,6 +109,16 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
         &written.join(", "),
         Some(duration(report.seconds.output)),
     );
+    text
+}
+
+/// What a scene's text was read as, a line each.
+pub(super) fn notes(notes: &[String]) -> String {
+    let mut text = String::new();
+    for (number, words) in notes.iter().enumerate() {
+        let stage = if number == 0 { "scene" } else { "" };
+        line(&mut text, stage, &visible(words), None);
+    }
     text
 }
 

@@ -3,19 +3,31 @@
 mod accuracy;
 mod check;
 mod check_body;
+mod document;
+mod explain;
 mod fault;
 mod fluid;
 mod given;
+mod json;
+mod length_unit;
 mod method;
 mod named;
 mod nearest;
 mod options;
+mod output;
 mod parse;
+mod parser_words;
+#[cfg(test)]
+mod reading_tests;
 mod refinement;
 mod shape;
+mod slips;
+mod solver_words;
+mod tables;
 mod template;
 #[cfg(test)]
 mod tests;
+mod wrong;
 
 use std::path::{Path, PathBuf};
 
@@ -28,11 +40,13 @@ pub use accuracy::{Accuracy, AccuracyMeasure};
 pub use fault::Fault;
 pub use fluid::{FluidSpec, Hydrostatic};
 pub use given::Given;
+pub(crate) use length_unit::LengthUnit;
 pub use method::{Method, UnknownMethod};
 pub use named::Inset;
 pub(crate) use named::kernel_by_name;
 pub(crate) use nearest::advice;
 pub use options::{AgitatedOptions, AgitatorsAre, HybridOptions};
+pub use output::{OutputSpec, Surroundings};
 pub use refinement::{RefinementSpec, RegionSpec};
 pub use shape::{SHAPES, Shape, ShapeInfo};
 pub use template::TEMPLATE;
@@ -47,6 +61,9 @@ pub struct Scene {
     /// The scene's file; other paths are relative to its folder.
     #[serde(skip)]
     pub path: PathBuf,
+    /// What its text was read as, where that is in other words than a scene's own; a sentence each.
+    #[serde(skip)]
+    pub notes: Vec<String>,
     /// ∆s, scene units; with `refinement`, on the bodies' surfaces.
     pub spacing: f64,
     /// How particles grow away from there.
@@ -223,6 +240,9 @@ pub struct PackingSpec {
     /// Its smoothing length over ∆s; `None` is the method's own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub h_over_spacing: Option<f64>,
+    /// Smoothing length over √D ∆s, where a text says that and the dimension D is not known before its bodies' files are opened.
+    #[serde(skip)]
+    pub(crate) h_over_diagonal: Option<f64>,
     /// The starting lattice; `None` is "auto".
     #[serde(with = "named::lattice")]
     pub lattice: Option<Lattice>,
@@ -354,6 +374,7 @@ impl Default for PackingSpec {
             accuracy: None,
             kernel: None,
             h_over_spacing: None,
+            h_over_diagonal: None,
             lattice: None,
             frozen: Frozen::default(),
             velocity_tolerance: hybrid.velocity_tolerance,
@@ -383,40 +404,9 @@ pub struct QualitySpec {
     pub kernel: Option<KernelKind>,
     /// Its smoothing length over ∆s.
     pub h_over_spacing: Option<f64>,
-}
-
-/// What is written.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct OutputSpec {
-    /// Names of the kinds of particles in the files.
-    pub include: Vec<String>,
-    /// A larger box that the files fill around the domain, on the lattice that the frozen particles begin (Negi &
-    /// Ramachandran 2021, fig. 3).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub surroundings: Option<Surroundings>,
-}
-
-/// A box around the domain.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Surroundings {
-    /// Lower corner, scene units.
-    pub min: Vec<f64>,
-    /// Upper corner, scene units.
-    pub max: Vec<f64>,
-}
-
-impl Default for OutputSpec {
-    fn default() -> Self {
-        Self {
-            include: (Kind::ALL.iter())
-                .filter(|&&kind| kind != Kind::Frozen)
-                .map(|kind| kind.name().to_owned())
-                .collect(),
-            surroundings: None,
-        }
-    }
+    /// The same over √D ∆s, as in [`PackingSpec`].
+    #[serde(skip)]
+    pub(crate) h_over_diagonal: Option<f64>,
 }
 
 impl Scene {
@@ -428,6 +418,7 @@ impl Scene {
         );
         Self {
             path: file.to_owned(),
+            notes: Vec::new(),
             spacing,
             domain: DomainSpec {
                 margin: Some(margin),

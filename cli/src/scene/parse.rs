@@ -1,14 +1,16 @@
 //! From text to a scene, with the line and column of whatever is wrong.
 
-use std::ops::Range;
+use std::io::Read;
 use std::path::Path;
 
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
 use super::check::{MAX_BODIES, too_many_bodies};
+use super::document::Document;
+use super::explain::typed;
 use super::fault::{Fault, Key};
-use super::nearest::advice;
-use super::{Given, Scene};
+use super::wrong::{Wrong, line_and_column};
+use super::{Given, Scene, length_unit, solver_words, tables};
 use crate::Error;
 
 /// The largest scene, bytes; one of a person has some thousand.
@@ -30,43 +32,66 @@ impl Scene {
         let text = String::from_utf8(bytes).map_err(|_| {
             Error::input(
                 path,
-                "this is not text; a scene is a TOML file (see `sphpack init`)",
+                "this is not text; a scene is a TOML file (see `sphpack init`), or JSON",
             )
         })?;
         Self::parse(&text, path)
     }
 
-    /// A scene from its text; `path` is for messages, and other paths are relative to its folder.
+    /// Reads and checks a scene that comes from elsewhere, which is called `name` in messages. Its paths are relative to the working
+    /// directory.
+    pub(crate) fn read_from(from: impl Read, name: &str) -> Result<Self, Error> {
+        let path = Path::new(name);
+        let mut text = String::new();
+        let read = from.take(MAX_BYTES + 1).read_to_string(&mut text);
+        read.map_err(|e| Error::input(path, format!("cannot be read as text ({e})")))?;
+        if text.len() as u64 > MAX_BYTES {
+            let message = "this is too large for a scene; keep long outlines in files of their own";
+            return Err(Error::input(path, message));
+        }
+        if text.trim().is_empty() {
+            let message =
+                "there is no scene; write one to it, as in: sphpack pack - -o OUT.vtu < scene.toml";
+            return Err(Error::input(path, message));
+        }
+        let mut scene = Self::parse(&text, path)?;
+        scene.name = "scene".into();
+        Ok(scene)
+    }
+
+    /// A scene from its text, TOML or JSON; `path` is for messages, and other paths are relative to its folder.
     ///
     /// # Errors
     /// [`Error::Scene`] with line and column.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let fail = |span: Option<Range<usize>>, message: String| Error::Scene {
+        let fail = |Wrong { at, message }| Error::Scene {
             path: path.to_owned(),
-            at: span.map(|span| line_and_column(text, span.start)),
+            at: at.map(|span| line_and_column(text, span.start)),
             message,
         };
-        // A parser would be at work on a million of them for long.
-        let heads = text
-            .match_indices("[[body]]")
-            .filter(|(at, _)| is_first_in_line(text, *at));
-        let number = heads.count();
-        if number > MAX_BODIES {
-            return Err(fail(None, too_many_bodies(number)));
-        }
-        let mut scene: Self =
-            toml::from_str(text).map_err(|e| fail(e.span(), explain(e.message())))?;
+        let mut scene = read(text, is_json(text, path)).map_err(fail)?;
         scene.path = path.to_owned();
         scene.name = path.file_stem().map_or_else(
             || "scene".to_owned(),
             |stem| stem.to_string_lossy().into_owned(),
         );
-        scene.name_bodies();
-        scene.packing.given = Given::new(packing_keys(text));
         match scene.check() {
             Ok(()) => Ok(scene),
-            Err(Fault { keys, message }) => Err(fail(locate(text, &keys), message)),
+            Err(Fault { keys, message }) => {
+                let mut document = document(text, is_json(text, path)).map_err(fail)?;
+                // Values stand by a scene's own keys then, and are found by them.
+                solver_words::translate(&mut document).map_err(fail)?;
+                let at = document.locate(&keys);
+                let read = (keys.last() == Some(&Key::Name("h_over_spacing")))
+                    .then(|| scene.notes.join("; "))
+                    .filter(|notes| !notes.is_empty());
+                let message = match read {
+                    Some(notes) => format!("{message}; {notes}"),
+                    None => message,
+                };
+                Err(fail(Wrong { at, message }))
+            }
         }
     }
 
@@ -82,86 +107,62 @@ impl Scene {
     }
 }
 
-/// The keys in `[packing]`.
-fn packing_keys(text: &str) -> Vec<String> {
-    let table = DeTable::parse(text).ok();
-    let packing = (table.as_ref()).and_then(|table| table.get_ref().get("packing"));
-    match packing.map(|packing| packing.get_ref()) {
-        Some(DeValue::Table(keys)) => keys.keys().map(|key| key.get_ref().to_string()).collect(),
-        _ => Vec::new(),
+/// Whether a scene is JSON: by its content, or where that is neither, by its name.
+fn is_json(text: &str, path: &Path) -> bool {
+    let is_named = (path.extension()).is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    is_named || text.trim_start().starts_with('{')
+}
+
+/// The values of a text, where tables are tables.
+fn document(text: &str, is_json: bool) -> Result<Document<'_>, Wrong> {
+    let document = Document::read(text, is_json)?;
+    tables::check(&document, text)?;
+    Ok(document)
+}
+
+/// A scene as it is written.
+fn read(text: &str, is_json: bool) -> Result<Scene, Wrong> {
+    let many = |number: usize| {
+        Err(Wrong {
+            at: None,
+            message: too_many_bodies(number),
+        })
+    };
+    // A parser would be at work on a million of them for long.
+    let heads = text
+        .match_indices("[[body]]")
+        .filter(|(at, _)| is_first_in_line(text, *at));
+    let number = heads.count();
+    if number > MAX_BODIES {
+        return many(number);
     }
+    let mut written = document(text, is_json)?;
+    if let Some(DeValue::Array(bodies)) = written.table.get("body").map(|body| body.get_ref())
+        && bodies.len() > MAX_BODIES
+    {
+        return many(bodies.len());
+    }
+    let words = solver_words::translate(&mut written)?;
+    let units = length_unit::taken(&mut written)?;
+    let given = Given::new(written.keys_of("packing"));
+    let mut scene = match written.scene() {
+        Ok(scene) => scene,
+        Err(error) => {
+            let at = error.span();
+            let byte = at.as_ref().map(|at| at.start);
+            let message = typed(error.message(), text, &document(text, is_json)?, byte);
+            return Err(Wrong { at, message });
+        }
+    };
+    scene.name_bodies();
+    scene.packing.given = given;
+    words.settle(&mut scene);
+    length_unit::settle(units, &mut scene);
+    Ok(scene)
 }
 
 /// Whether nothing but space is before a byte in its line.
 fn is_first_in_line(text: &str, byte: usize) -> bool {
     let before = text[..byte].trim_end_matches([' ', '\t']);
     before.is_empty() || before.ends_with('\n')
-}
-
-/// Line and column, counted from 1, of a byte.
-fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
-    let before = text.get(..byte).unwrap_or(text);
-    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-    (
-        before.matches('\n').count() + 1,
-        before[line_start..].chars().count() + 1,
-    )
-}
-
-/// Where a value stands; the innermost of its keys that can be found.
-fn locate(text: &str, keys: &[Key]) -> Option<Range<usize>> {
-    let table = DeTable::parse(text).ok()?;
-    let mut place = None;
-    let mut here: Option<&DeValue<'_>> = None;
-    for key in keys {
-        let found = match (key, here) {
-            (Key::Name(name), None) => table.get_ref().get(*name),
-            (Key::Name(name), Some(DeValue::Table(inner))) => inner.get(*name),
-            (Key::Index(index), Some(DeValue::Array(inner))) => inner.get(*index),
-            _ => None,
-        };
-        let Some(value) = found else { break };
-        place = Some(value.span());
-        here = Some(value.get_ref());
-    }
-    place
-}
-
-/// A parser's message with the nearest known name in place of a bare list.
-fn explain(message: &str) -> String {
-    let message = message.trim().replace('\n', "; ");
-    if let Some((unknown, known)) = message
-        .strip_prefix("unexpected keys in table: ")
-        .and_then(|rest| rest.split_once(", available keys: "))
-    {
-        let known: Vec<&str> = known.split(", ").collect();
-        let first = unknown.split(", ").next().unwrap_or(unknown);
-        return format!("unknown key \"{first}\"; {}", advice(first, &known));
-    }
-    if ["recursion limit", "recursion depth"]
-        .iter()
-        .any(|words| message.contains(words))
-    {
-        return "values lie within one another deeper than any scene needs; remove brackets".into();
-    }
-    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    if let [unknown, known @ ..] = quoted.as_slice() {
-        for (start, what) in [
-            ("unknown field", "unknown key"),
-            ("unknown variant", "unknown name"),
-        ] {
-            if message.starts_with(start) {
-                if known.is_empty() {
-                    return format!("{what} \"{unknown}\"; remove it");
-                }
-                return format!("{what} \"{unknown}\"; {}", advice(unknown, known));
-            }
-        }
-        if message.starts_with("missing field") {
-            return format!(
-                "the key \"{unknown}\" is missing; add it (`sphpack init` shows a whole scene)"
-            );
-        }
-    }
-    message
 }

@@ -5,7 +5,7 @@ pub const TEMPLATE: &str = r#"# A scene for sphpack: bodies in a box, to be fill
 # Pack it with: sphpack pack THIS_FILE
 # Keys that are commented out have the value shown, unless said otherwise. Lengths are in one unit of your choice.
 
-spacing = 0.1                    # the particle spacing: the square (cube) root of a particle's area (volume)
+spacing = 0.1                    # the particle spacing: the square (cube) root of a particle's area (volume); dp, dx too
 
 # [refinement]                   # particles that grow away from the bodies (no default); spacing is then on their surfaces
 # coarsest = 0.4                 # far away
@@ -30,6 +30,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # shape = { file = "body.stl" }  # a closed mesh (.stl, .obj, .ply: 3-D) or an outline (.csv: rows of x,y, .dat: an
                                  # airfoil, .svg: a drawing's closed paths: 2-D); relative to this file
 # scale = 1.0                    # the body is scaled, then turned, then moved, about the origin
+# units = "mm"                   # of a file, into a scene in metres, instead of scale: m | cm | mm | um | in | ft | km
 # rotate_degrees = 0.0           # 2-D, counter-clockwise
 # rotate = { axis = [0.0, 0.0, 1.0], degrees = 0.0 }   # 3-D
 # translate = [0.0, 0.0]
@@ -55,7 +56,7 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # accuracy = { linf = 0.002 }    # method = "auto": what to reach (no default); linf: largest |density - 1| | residual: net
                                  # force times h | interpolation, derivative: of a function, part of error beyond a lattice's
 # kernel = "quintic"             # `sphpack list kernels`
-# h_over_spacing = 1.2           # smoothing length over spacing
+# h_over_spacing = 1.2           # smoothing length over spacing; also hdx, hdp, or h, a length, or coefh: times sqrt(2 or 3)
 # lattice = "auto"               # the start: `sphpack list lattices`; of least density, or the method's own
 # frozen = "lattice"             # particles outside the box: the lattice continued, or a "square" ring
 # finish = "even"                # even: pairs stay apart | consistent: no net pressure force on any free particle

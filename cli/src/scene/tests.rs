@@ -154,6 +154,8 @@ fn the_template_packs_and_knows_every_key() {
                 "# margin",
                 "# shape",
                 "# rotate =",
+                // A word for the scale.
+                "# units",
                 // Goes with the method "auto".
                 "# accuracy",
                 "# Pack",
@@ -398,7 +400,10 @@ fn numbers_out_of_range_are_named() {
             "rotate_degrees = 1",
         ),
         ("translate = [1]", "translate has 1 entries"),
-        ("scale = \"big\"", "string \"big\""),
+        (
+            "scale = \"big\"",
+            "scale is the text \"big\"; it must be a number",
+        ),
     ] {
         refuse(&format!("{GOOD}{line}"), 9, &[part]);
     }

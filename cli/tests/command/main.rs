@@ -16,6 +16,7 @@ mod hydrostatics;
 mod interrupts;
 mod limits;
 mod measuring;
+mod other_words;
 mod particle_files;
 mod precedence;
 mod rigid;
