@@ -111,7 +111,8 @@ impl<const D: usize> Moments<D> {
                 } else {
                     0.0
                 };
-                if i == k { trace - own } else { -own }
+                // From 0, so that none is −0.
+                if i == k { trace - own } else { 0.0 - own }
             })
         })
     }
