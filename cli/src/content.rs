@@ -13,36 +13,44 @@ const BEYOND_OVER_SPACING: f64 = 0.1;
 pub(crate) struct Content<const D: usize> {
     /// The volume of every body's particles, and of the fluid's last, by labels: what roles leave out is in it too.
     pub(crate) volumes: Vec<f64>,
-    /// Volume, centre and second moments of the particles of every body, as points, where the true body's are known. What has images
-    /// across periodic sides is put together around the true centre.
-    pub(crate) moments: Vec<Option<Moments<D>>>,
+    /// How that of every body is spread, where that of the true one is known.
+    pub(crate) spread: Vec<Option<Spread<D>>>,
+}
+
+/// How the volume of a body is spread.
+pub(crate) struct Spread<const D: usize> {
+    /// The true body's.
+    pub(crate) exact: Moments<D>,
+    /// Its particles', as points; `None` where there are none. What has images across periodic sides is put together around the true centre.
+    pub(crate) particles: Option<Moments<D>>,
 }
 
 impl<const D: usize> Content<D> {
     pub(crate) fn of(problem: &Problem<D>, solution: &Solution<D>) -> Self {
         let mut volumes = vec![0.0; problem.bodies.len() + 1];
-        let centers = problem.bodies.iter().map(|body| body.surface.moments());
-        let mut sums: Vec<Option<MomentSums<D>>> = centers
-            .map(|moments| moments.map(|moments| MomentSums::about(moments.center)))
+        let mut sums: Vec<Option<(Moments<D>, MomentSums<D>)>> = (problem.bodies.iter())
+            .map(|body| {
+                let exact = body.surface.moments()?;
+                Some((exact, MomentSums::about(exact.center)))
+            })
             .collect();
-        let domain = &problem.domain;
-        let size = domain.bounds.size();
         for_each(problem, solution, &mut |holder, p, volume| {
             volumes[holder] += volume;
-            if let Some(Some(sums)) = sums.get_mut(holder) {
-                let near = std::array::from_fn(|k| {
-                    let away = p[k] - sums.origin()[k];
-                    let periods =
-                        (away / size[k]).round() * f64::from(u8::from(domain.periodic[k]));
-                    p[k] - size[k] * periods
-                });
-                sums.add(near, volume);
+            if let Some(Some((exact, sums))) = sums.get_mut(holder) {
+                let away = problem.domain.difference(p, exact.center);
+                sums.add(point::add(exact.center, away), volume);
             }
         });
-        Self {
-            volumes,
-            moments: sums.into_iter().map(|sums| sums?.moments()).collect(),
-        }
+        let spread = (sums.into_iter())
+            .map(|sums| {
+                let (exact, sums) = sums?;
+                Some(Spread {
+                    exact,
+                    particles: sums.moments(),
+                })
+            })
+            .collect();
+        Self { volumes, spread }
     }
 }
 

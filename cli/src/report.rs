@@ -8,6 +8,7 @@ use sphpack_packing::{
 
 use crate::audit::Audit;
 use crate::auto::AutoReport;
+use crate::content::Spread;
 use crate::scene::Scene;
 
 /// The version of the report's keys.
@@ -171,9 +172,19 @@ pub struct Rigid {
     pub inertia: [[f64; 3]; 3],
 }
 
+impl RigidReport {
+    pub(crate) fn new<const D: usize>(spread: &Spread<D>, density: f64) -> Self {
+        let of = |moments: &Moments<D>| Rigid::new(moments, density);
+        Self {
+            exact: of(&spread.exact),
+            particles: spread.particles.as_ref().map(of),
+        }
+    }
+}
+
 impl Rigid {
     /// Of a body of such moments and density.
-    pub(crate) fn new<const D: usize>(moments: &Moments<D>, density: f64) -> Self {
+    fn new<const D: usize>(moments: &Moments<D>, density: f64) -> Self {
         Self {
             mass: density * moments.volume,
             center: moments.center.to_vec(),

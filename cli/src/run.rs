@@ -1,8 +1,7 @@
 //! The way of the data: scene, problem, particles, labels, figures.
 
-use sphpack_geometry::Moments;
 use sphpack_neighbors::{point, words};
-use sphpack_packing::{Body, Kind, Observer, StopReason};
+use sphpack_packing::{Kind, Observer, StopReason};
 use sphpack_separation::Side;
 
 use std::time::Instant;
@@ -21,10 +20,10 @@ use crate::methods::pack;
 use crate::opened::{Opened, opened};
 use crate::plan::{Prepared, available_bytes, judged, prepare};
 use crate::report::{
-    BodyReport, Counts, MassReport, Report, ResolutionReport, Rigid, RigidReport, SCHEMA,
-    SecondsReport, finite, finite_surface, peak_memory_bytes,
+    BodyReport, Counts, MassReport, Report, ResolutionReport, RigidReport, SCHEMA, SecondsReport,
+    finite, finite_surface, peak_memory_bytes,
 };
-use crate::scene::{BodySpec, Masses, Role, Scene};
+use crate::scene::{Masses, Role, Scene};
 use crate::solution::{Packing, Solution};
 use crate::table::{Shared, Table};
 
@@ -339,20 +338,6 @@ fn resolution<const D: usize>(solution: &Solution<D>) -> Option<ResolutionReport
     })
 }
 
-/// A solid as a rigid body, where its moments are known.
-fn rigid<const D: usize>(
-    body: &Body<D>,
-    spec: &BodySpec,
-    particles: Option<&Moments<D>>,
-) -> Option<RigidReport> {
-    let exact = (spec.role == Role::Solid).then(|| body.surface.moments())??;
-    let of = |moments: &Moments<D>| Rigid::new(moments, spec.density);
-    Some(RigidReport {
-        exact: of(&exact),
-        particles: particles.map(of),
-    })
-}
-
 fn report<const D: usize>(
     scene: &Scene,
     solution: &Solution<D>,
@@ -373,14 +358,16 @@ fn report<const D: usize>(
             .filter(|&i| table.kind[i] != Kind::Frozen && table.side[i] == side)
             .count()
     };
-    let held = content.volumes.iter().zip(&content.moments);
+    let held = content.volumes.iter().zip(&content.spread);
     let bodies = (problem.bodies.iter().zip(&scene.body).zip(held))
-        .map(|((body, spec), (&volume, moments))| BodyReport {
+        .map(|((body, spec), (&volume, spread))| BodyReport {
             name: body.name.clone(),
             volume_true: body.surface.volume(),
             volume,
             mass: spec.density * volume,
-            rigid: rigid(body, spec, moments.as_ref()),
+            rigid: (spread.as_ref())
+                .filter(|_| spec.role == Role::Solid)
+                .map(|spread| RigidReport::new(spread, spec.density)),
             repairs: Vec::new(),
         })
         .collect();

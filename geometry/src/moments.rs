@@ -147,11 +147,6 @@ impl<const D: usize> MomentSums<D> {
         }
     }
 
-    /// About which they are summed.
-    pub fn origin(&self) -> [f64; D] {
-        self.origin
-    }
-
     /// One more point.
     pub fn add(&mut self, p: [f64; D], weight: f64) {
         let x = point::sub(p, self.origin);

@@ -22,7 +22,7 @@ fn two() -> (TempDir, PathBuf, PathBuf) {
 }
 
 /// Names in a folder, hidden ones too, sorted.
-fn names(folder: &TempDir) -> Vec<String> {
+pub(super) fn names(folder: &TempDir) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(folder.path())
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())

@@ -27,9 +27,9 @@ const ATTRIBUTES: [(&str, u16, i32); 5] = [
 /// Those of `to`; before anything is written, where a number is not finite or too large for 32 bits, or particles are more than 2³¹ − 1.
 pub fn write_bgeo(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     super::validate::check(table)?;
-    super::validate::check_single(table, &|i| {
+    super::validate::check_single(table, |i| {
         let [x, y, z] = table.position[i];
-        vec![
+        [
             ("x", x),
             ("y", y),
             ("z", z),

@@ -27,9 +27,9 @@ pub fn write_bi4(table: &Table, to: &mut dyn Write) -> io::Result<()> {
 pub(super) fn write(table: &Table, is_wide: bool, to: &mut dyn Write) -> io::Result<()> {
     super::validate::check(table)?;
     let case = Case::of(table)?;
-    super::validate::check_single(table, &|i| {
+    super::validate::check_single(table, |i| {
         let [x, y, z] = case.to_surface(i);
-        vec![
+        [
             ("density", case.density_of(i)),
             ("nx", x),
             ("ny", y),

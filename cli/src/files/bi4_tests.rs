@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use super::atomic_tests::names;
 use super::solver_tests::some;
 use super::*;
 
@@ -268,14 +269,7 @@ fn the_second_file_says_what_they_are() {
 fn both_files_or_none() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("case.bi4");
-    let names = || {
-        let mut names: Vec<String> = fs::read_dir(folder.path())
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
-        names.sort();
-        names
-    };
+    let names = || names(&folder);
     let table = some(3, 12);
     let mut two_masses = table.clone();
     two_masses.mass[4] *= 1.001;

@@ -60,6 +60,7 @@ fn text(case: &Case<'_>) -> String {
     let (count, bound) = (table.len(), case.bound);
     let is_plane = table.dimension == 2;
     let [spacing, smoothing_length] = case.lengths();
+    // Writing to a string cannot fail.
     let mut constants = format!("<data2d value=\"{is_plane}\"/>\n");
     if is_plane {
         constants += "<data2dposy value=\"0\" units_comment=\"m\"/>\n";

@@ -330,7 +330,11 @@ fn a_writer_that_fails_leaves_nothing() {
 }
 
 /// A file of a format, read by [`compare`].
-fn compared(table: &Table, format: ParticleFormat, bytes: &[u8]) -> Result<bool, String> {
+pub(super) fn compared(
+    table: &Table,
+    format: ParticleFormat,
+    bytes: &[u8],
+) -> Result<bool, String> {
     let file = tempfile::NamedTempFile::new().unwrap();
     fs::write(file.path(), bytes).unwrap();
     compare(table, format, file.path())
@@ -392,19 +396,22 @@ fn any_column_that_differs_is_named() {
             message.contains("ny of particle 4294967295 is 0 instead of -0"),
             "{message}"
         );
-        let none = good.filtered(|_| false);
-        let message = compared(&good, format, &written(format, &none)).unwrap_err();
-        assert!(
-            message.contains("0 particles instead of 1"),
-            "{ending}: {message}"
-        );
-        let bytes = written(format, &good);
-        let message = compared(&good, format, &bytes[..bytes.len() / 2]).unwrap_err();
-        assert!(
-            message.contains("cannot be read again"),
-            "{ending}: {message}"
-        );
+        what_lacks_is_found(&good, format, ending);
     }
+}
+
+/// A file without rows, or cut off, is none of the table's.
+pub(super) fn what_lacks_is_found(good: &Table, format: ParticleFormat, ending: &str) {
+    let none = good.filtered(|_| false);
+    let message = compared(good, format, &written(format, &none)).unwrap_err();
+    let words = format!("0 particles instead of {}", good.len());
+    assert!(message.contains(&words), "{ending}: {message}");
+    let bytes = written(format, good);
+    let message = compared(good, format, &bytes[..bytes.len() / 2]).unwrap_err();
+    assert!(
+        message.contains("cannot be read again"),
+        "{ending}: {message}"
+    );
 }
 
 #[test]

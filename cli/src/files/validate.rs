@@ -52,9 +52,9 @@ pub(super) fn check(table: &Table) -> io::Result<()> {
 }
 
 /// Refuses numbers that 32 bits are too few for; `row` has a particle's, by name.
-pub(super) fn check_single(
+pub(super) fn check_single<const N: usize>(
     table: &Table,
-    row: &dyn Fn(usize) -> Vec<(&'static str, f64)>,
+    row: impl Fn(usize) -> [(&'static str, f64); N],
 ) -> io::Result<()> {
     for i in 0..table.len() {
         let row = row(i);

@@ -321,7 +321,7 @@ impl PackingSpec {
             // Most of it is for factors of matrices: by 1,600 and 6,400 particles in the plane, whose seconds are those of
             // 1,500 and 12,000 evaluations.
             (Method::Balanced, Finish::Calm) => 5000.0,
-            // Around balls levelling by 60 took 1.2 … 3.4 times as many as by 10, by 200 2 … 7.
+            // By what docs/steady.md compares: 1.2 … 7 times as many where levelling is 6 … 20 times as strong.
             (Method::Balanced, Finish::Even) if dimension == 3 => {
                 let stronger = 0.1 * self.settling_in(dimension).levelling;
                 let evaluations = work.evaluations * stronger.max(1.0).powf(0.4);

@@ -24,49 +24,31 @@ const SINGLE: [&[&str]; 10] = [
 
 /// Refuses a single table where a list of them stands, and the other way round.
 pub(super) fn check(document: &Document<'_>, text: &str) -> Result<(), Wrong> {
-    for path in LISTS {
-        if let Some((value, at)) = found(&document.table, path)
-            && matches!(value, DeValue::Table(_))
-        {
-            let name = path.join(".");
-            let is_head = text
-                .get(at.clone())
-                .is_some_and(|text| text.starts_with('['));
-            let message = if is_head {
-                format!("there may be several: write [[{name}]] instead of [{name}]")
-            } else {
-                let last = path[path.len() - 1];
-                format!(
-                    "{name} is a list of tables; put it in brackets, as one for each: {last} = [{{ … }}]"
-                )
-            };
-            return Err(Wrong {
-                at: Some(at),
-                message,
-            });
+    let lists = LISTS.into_iter().map(|path| (path, true));
+    for (path, is_list) in lists.chain(SINGLE.into_iter().map(|path| (path, false))) {
+        let Some((value, at)) = found(&document.table, path) else {
+            continue;
+        };
+        if is_list != matches!(value, DeValue::Table(_)) {
+            continue;
         }
-    }
-    for path in SINGLE {
-        if let Some((value, at)) = found(&document.table, path)
-            && !matches!(value, DeValue::Table(_))
-        {
-            let name = path.join(".");
-            let is_head = text
-                .get(at.clone())
-                .is_some_and(|text| text.starts_with("[["));
-            let message = if is_head {
-                format!("there is only one: write [{name}] instead of [[{name}]]")
-            } else {
-                let last = path[path.len() - 1];
-                format!(
-                    "{name} is a table of keys: write [{name}] and its keys below, or {last} = {{ … }}"
-                )
-            };
-            return Err(Wrong {
-                at: Some(at),
-                message,
-            });
-        }
+        let (name, last) = (path.join("."), path[path.len() - 1]);
+        let head = if is_list { "[" } else { "[[" };
+        let is_head = (text.get(at.clone())).is_some_and(|text| text.starts_with(head));
+        let message = match (is_list, is_head) {
+            (true, true) => format!("there may be several: write [[{name}]] instead of [{name}]"),
+            (true, false) => format!(
+                "{name} is a list of tables; put it in brackets, as one for each: {last} = [{{ … }}]"
+            ),
+            (false, true) => format!("there is only one: write [{name}] instead of [[{name}]]"),
+            (false, false) => format!(
+                "{name} is a table of keys: write [{name}] and its keys below, or {last} = {{ … }}"
+            ),
+        };
+        return Err(Wrong {
+            at: Some(at),
+            message,
+        });
     }
     Ok(())
 }

@@ -117,8 +117,8 @@ impl Settling {
     /// The levelling that pays with a kernel at an h/∆s, in so many dimensions: 10 from 1.2 on, less below, as the fourth power. With a
     /// shorter kernel every neighbour counts for more, and evenness costs more evaluations and larger forces left over.
     ///
-    /// In space more with Wendland's kernels, which are pointed: around balls that leaves a half to a sixth of the error, for 1.2 to 7 times the
-    /// evaluations (docs/steady.md). Where they are too short, more makes it worse: Wendland C2 at 1.0 leaves 4.6 % by 10, 8.8 % by 100.
+    /// In space more with Wendland's kernels, which are pointed: docs/steady.md has what that leaves and takes beside what ten does. Where they
+    /// are too short for the lattice, more makes it worse, so it falls off steeply.
     pub fn levelling_at(dimension: usize, kernel: KernelKind, h_over_spacing: f64) -> f64 {
         let at_least = Self::LEVELLING * (h_over_spacing / 1.2).min(1.0).powi(4);
         let (most, from) = match (dimension, kernel) {

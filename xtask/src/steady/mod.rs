@@ -65,8 +65,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
             "# What should not matter, and what a kernel leaves\n\n\
              The balanced method with its defaults. Rows that miss are known, and a row that changes its verdict fails the task. Not known yet is why\n\
              thin sections differ by more than the bar. In space the quintic and cubic splines at h/∆s of 1.2 and less leave more around\n\
-             a ball of three spacings' radius than without it: `levelling`, 10 at most, is weak there; by 100 and more they come near the floor, for\n\
-             two to four times the evaluations, so that is left to who asks. Wendland's kernels, pointed, have more levelling in space from the start; at\n\
+             a ball of three spacings' radius than without it: `levelling`, 10 at most, is weak there; by 100 the quintic comes near the floor, for\n\
+             more evaluations, so that is left to who asks. Wendland's kernels, pointed, have more levelling in space from the start; at\n\
              an h/∆s too short for them none helps. A row within a tenth of its bar is not held to its verdict: processors round differently.\n\
              Regenerate with `cargo xtask stability steady --write`.\n\n\
              ## Where the lattice lies, which way, the seed, the units\n\n{}\n\
