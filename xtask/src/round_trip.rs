@@ -156,10 +156,11 @@ fn write(name: &str, text: &str, folder: &Path) -> Result<(), String> {
         "xml" => format!("{name}-reload.xml"),
         ending => format!("{name}.{ending}"),
     });
-    for file in all.into_iter().chain(["fluid_rld.xml".to_owned()]) {
-        let file = file.replace("fluid_rld", &format!("{name}/fluid_rld"));
-        let path = folder.join(file);
-        fs::create_dir_all(folder.join(name)).map_err(|error| error.to_string())?;
+    // Its name is the fluid's in every scene.
+    let of_fluid = folder.join(name);
+    fs::create_dir_all(&of_fluid).map_err(|error| error.to_string())?;
+    let all = all.into_iter().map(|file| folder.join(file));
+    for path in all.chain([of_fluid.join("fluid_rld.xml")]) {
         save(&rows, &path, true).map_err(|error| error.to_string())?;
     }
     println!("{name}: {} particles", rows.len());
