@@ -17,7 +17,7 @@ use crate::walk::{shells, walk};
 pub enum Shape {
     /// A smoothing kernel.
     Smoothing(KernelKind),
-    /// The [cohesion](CohesionPotential), whose length is its support radius.
+    /// The [cohesion](CohesionPotential), whose length is its support radius. Only [`PackingSums::sum`] is of it.
     Cohesion,
 }
 
@@ -27,6 +27,13 @@ impl Shape {
         match self {
             Self::Smoothing(kernel) => kernel.with(length, work),
             Self::Cohesion => work.call(CohesionPotential::<D>::new(length)),
+        }
+    }
+
+    fn kernel(self) -> KernelKind {
+        match self {
+            Self::Smoothing(kernel) => kernel,
+            Self::Cohesion => panic!("of the cohesion there is only the sum of settling"),
         }
     }
 
@@ -91,7 +98,7 @@ impl PackingSums<'_> {
     /// Σ_j w_j ∇_iW_ij of every target over sources that are targets. Otherwise as [`PackingSums::sum`].
     ///
     /// # Panics
-    /// Where `out` is not as long as there are targets.
+    /// Where `out` is not as long as there are targets, or the shape is the cohesion.
     pub fn gradient<const D: usize>(self, out: &mut [[f64; 3]]) {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         if D == 2 {
@@ -104,7 +111,7 @@ impl PackingSums<'_> {
     /// [`Variation`] of every target. Otherwise as [`PackingSums::sum`].
     ///
     /// # Panics
-    /// Where `out` is not as long as there are targets, or there are not `D + 1` fields.
+    /// Where `out` is not as long as there are targets, the shape is the cohesion, or there are not `D + 1` fields.
     pub fn vary<const D: usize>(self, out: &mut [VariationSum]) {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         assert_eq!(self.gathered.stride, D + 1, "a number and a vector");
@@ -118,7 +125,7 @@ impl PackingSums<'_> {
     /// Density by every target's own h, and repulsion, between particles of many sizes. Otherwise as [`PackingSums::sum`].
     ///
     /// # Panics
-    /// Where `out` is not as long as there are targets.
+    /// Where `out` is not as long as there are targets, or the shape is the cohesion.
     pub fn gather<const D: usize>(self, repulsion: SizedRepulsion, out: &mut [SizedSum]) {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         let terms = (DensityBy::default(), repulsion);
@@ -132,7 +139,7 @@ impl PackingSums<'_> {
     /// Density by the mean h of every pair, and repulsion, between particles of many sizes. Otherwise as [`PackingSums::sum`].
     ///
     /// # Panics
-    /// Where `out` is not as long as there are targets.
+    /// Where `out` is not as long as there are targets, or the shape is the cohesion.
     pub fn average<const D: usize>(self, repulsion: SizedRepulsion, out: &mut [SizedSum]) {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         let terms = (DensityBy::default(), repulsion);
@@ -146,7 +153,7 @@ impl PackingSums<'_> {
     /// Density by every source's h. Otherwise as [`PackingSums::sum`].
     ///
     /// # Panics
-    /// Where `out` is not as long as there are targets.
+    /// Where `out` is not as long as there are targets, or the shape is the cohesion.
     pub fn scatter<const D: usize>(self, out: &mut [DensityBySum]) {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         if D == 2 {
@@ -157,29 +164,29 @@ impl PackingSums<'_> {
     }
 }
 
-/// Sums of these terms in the plane and in space. Not generic, so that the loops, long code for every kernel and vector width, are
-/// compiled here, once.
+/// Sums of these terms in the plane and in space, of any shape or of its kernel. Not generic, so that the loops, long code for
+/// every kernel and vector width, are compiled here, once.
 macro_rules! compiled {
-    ($($plane:ident, $space:ident: $terms:ty;)+) => {
+    ($($plane:ident, $space:ident: $terms:ty, of $shape:ident $(. $kernel:ident ())?;)+) => {
         $(
             fn $plane(of: PackingSums<'_>, terms: &$terms, out: &mut [<$terms as Term>::Sum]) {
-                of.shape.with::<2, _>(of.length, Work { of, terms, out });
+                of.$shape$(.$kernel())?.with::<2, _>(of.length, Work { of, terms, out });
             }
 
             fn $space(of: PackingSums<'_>, terms: &$terms, out: &mut [<$terms as Term>::Sum]) {
-                of.shape.with::<3, _>(of.length, Work { of, terms, out });
+                of.$shape$(.$kernel())?.with::<3, _>(of.length, Work { of, terms, out });
             }
         )+
     };
 }
 
 compiled! {
-    sum_in_plane, sum_in_space: PackingTerms;
-    gradient_in_plane, gradient_in_space: TargetGradient;
-    vary_in_plane, vary_in_space: Variation;
-    gather_in_plane, gather_in_space: (DensityBy<Gather>, SizedRepulsion);
-    average_in_plane, average_in_space: (DensityBy<Mean>, SizedRepulsion);
-    scatter_in_plane, scatter_in_space: DensityBy<Scatter>;
+    sum_in_plane, sum_in_space: PackingTerms, of shape;
+    gradient_in_plane, gradient_in_space: TargetGradient, of shape.kernel();
+    vary_in_plane, vary_in_space: Variation, of shape.kernel();
+    gather_in_plane, gather_in_space: (DensityBy<Gather>, SizedRepulsion), of shape.kernel();
+    average_in_plane, average_in_space: (DensityBy<Mean>, SizedRepulsion), of shape.kernel();
+    scatter_in_plane, scatter_in_space: DensityBy<Scatter>, of shape.kernel();
 }
 
 /// Work for whichever kernel.
