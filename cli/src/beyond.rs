@@ -10,7 +10,7 @@ use crate::dimension::{Built, Cuttable, Dimension, Space};
 use crate::scene::{Method, Role, Scene};
 
 /// How far beyond a side a body must reach to be told that it is cut there, in ∆s.
-const TOLD_OVER_SPACING: f64 = 1e-3;
+pub(crate) const TOLD_OVER_SPACING: f64 = 1e-3;
 
 /// A box of more sites than this is refused, and everything in it would be on its sides.
 const MOST_SITES: f64 = 1e11;

@@ -85,10 +85,11 @@ fn row_bytes(written: f64) -> f64 {
 }
 
 impl Plan {
-    /// The plan where a picture is drawn, or files are held when they are read again. Without the memory for that they are not read.
+    /// The plan where a picture is drawn or files hold parts, so that rows are copied, or files are held when they are read again.
+    /// Without the memory for that they are not read.
     #[must_use]
-    pub(crate) fn with_files(mut self, has_picture: bool, are_held: bool) -> Self {
-        let table = if has_picture { TABLE_BYTES } else { 0.0 };
+    pub(crate) fn with_files(mut self, has_copy: bool, are_held: bool) -> Self {
+        let table = if has_copy { TABLE_BYTES } else { 0.0 };
         let last = self.estimate.kept_bytes + row_bytes(self.written) + table * self.written;
         let held = last + READ_BYTES * self.written;
         let most = if are_held && held <= self.allowed_bytes {
@@ -422,8 +423,37 @@ fn domain<const D: usize>(scene: &Scene, bodies: &[Built<D>]) -> Domain<D> {
             .grown(spec.margin.unwrap_or(0.0)),
     };
     let periodic = spec.periodic.as_deref().unwrap_or(&[]);
-    Domain {
+    let domain = Domain {
         bounds,
         periodic: std::array::from_fn(|k| periodic.get(k).copied().unwrap_or(false)),
+    };
+    with_room(domain, scene, bodies)
+}
+
+/// The least room around a container, in ∆s. Its particles settle against others beyond its wall, though those are not kept:
+/// a tank in a box that left it 0, 0.4, 1, 2 and 4 ∆s had its density within 6.6, 2.4, 0.35, 0.14 and 0.10 %.
+const CONTAINER_ROOM: f64 = 4.0;
+
+/// A domain that leaves every container in it some room within its open sides. What is there is nobody's: the fluid is in containers.
+fn with_room<const D: usize>(
+    mut domain: Domain<D>,
+    scene: &Scene,
+    bodies: &[Built<D>],
+) -> Domain<D> {
+    let held = domain
+        .bounds
+        .grown(beyond::TOLD_OVER_SPACING * scene.spacing);
+    for (body, built) in scene.body.iter().zip(bodies) {
+        let wall = built.surface.bounds();
+        if body.role != Role::Container || !held.contains_box(&wall) {
+            continue;
+        }
+        let room = domain
+            .bounds
+            .union(wall.grown(CONTAINER_ROOM * scene.spacing));
+        for k in (0..D).filter(|&k| !domain.periodic[k]) {
+            (domain.bounds.min[k], domain.bounds.max[k]) = (room.min[k], room.max[k]);
+        }
     }
+    domain
 }

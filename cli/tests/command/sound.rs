@@ -292,6 +292,35 @@ fn a_solid_stands_in_a_container() {
     }
 }
 
+/// A tank has fluid within its wall alone, so its box may end at the wall: what is beyond is nobody's.
+#[test]
+fn a_container_may_fill_its_box() {
+    let tanks = [
+        "polygon = { points = [[0, 0], [2, 0], [3, 1], [0, 1]] }",
+        "box = { min = [0, 0], max = [3, 1] }",
+        "polygon = { points = [[0, 0], [3, 0.2], [2.9, 1], [1.2, 0.7], [0.1, 1]] }",
+    ];
+    for (n, tank) in tanks.iter().enumerate() {
+        for surface in ["inset", "exact"] {
+            // From no room at all to some.
+            for step in 0..5 {
+                let spacing = 0.05 + 0.007 * f64::from(step) + 0.003 * n as f64;
+                let room = [0.0, 0.1, 0.5, 1.0, 2.0][step as usize] * spacing;
+                let packed = pack(&format!(
+                    "spacing = {spacing}\n[domain]\nmin = [{low}, {low}]\nmax = [{}, {}]\n[[body]]\nname = \"tank\"\n\
+                     role = \"container\"\nsurface = \"{surface}\"\nshape = {{ {tank} }}",
+                    3.0 + room,
+                    1.0 + room,
+                    low = -room,
+                ));
+                packed.is_sound();
+                let off = packed.report["density"]["linf"].as_f64().expect("a number");
+                assert!(off < 0.01, "{tank}, {surface}, {spacing}, {room}: {off}");
+            }
+        }
+    }
+}
+
 /// Published methods make what they make; nothing is called done that is not.
 #[test]
 fn methods_that_fail_say_so() {
