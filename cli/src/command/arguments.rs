@@ -51,12 +51,14 @@ Examples:
   sphpack pack wing.toml                                       writes wing.vtu
   sphpack pack wing.toml -o wing.npz -o wing.vtu --picture wing.svg --report wing.json
   sphpack pack tank.toml -o tank.bi4                           for DualSPHysics: tank.bi4 and tank.xml
+  sphpack pack tank.toml -o 'tank-{body}.csv'                  a file for each body, and tank-fluid.csv
   sphpack pack bunny.stl --scale 10 --spacing 0.02             a mesh: 3-D
   sphpack pack outline.csv --spacing 0.05 --margin 0.5         rows of x,y: 2-D
   sphpack pack naca0012.dat --spacing 0.01                     an airfoil (Selig or Lednicer): 2-D
   sphpack pack drawing.svg --scale 0.001 --spacing 0.002       a drawing's closed paths: 2-D
   sphpack pack part.stl --units mm --spacing 0.001             a body in millimetres, the spacing in metres
   sphpack pack - -o wing.vtu < wing.json                       a scene from another program
+  sphpack pack wing.toml -o - | gzip > wing.csv.gz             particles to another program
   sphpack pack wing.toml --dry-run                             how many particles, how much memory and time
 
 A body's format is told from its content, whatever its name. It is: triangles (STL, binary or text); polygons (OBJ; PLY, binary or text); rows of x,y (a blank line ends a loop); an airfoil's coordinates; or the closed paths, polygons, rectangles, circles and ellipses of an SVG drawing, in the units of its viewBox and with y turned up: (x, y) becomes (x, -y).
@@ -71,7 +73,7 @@ Files are written under hidden names, read again and compared, and then get thei
 pub(super) struct PackArguments {
     /// The scene (.toml, .json; - reads it from standard input), or a body: a mesh (.stl, .obj, .ply) or an outline (.csv, .dat, .svg)
     pub(super) input: PathBuf,
-    /// Write particles here (.vtu, .vtp, .vtk, .npz, .ply, .csv; for solvers .data, .xml, .bgeo, .bi4); may be repeated [default: NAME.vtu in the working directory]
+    /// Write particles here (.vtu, .vtp, .vtk, .npz, .ply, .csv; for solvers .data, .xml, .bgeo, .bi4); may be repeated; {body} in it makes a file for each body and the fluid, {side} one for each side; - is standard output, as CSV [default: NAME.vtu in the working directory]
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
     /// Write figures here (JSON)
@@ -200,11 +202,17 @@ pub(super) struct QualityArguments {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  sphpack init                 prints the scene
-  sphpack init cylinder.toml   writes it")]
+  sphpack init                              prints the scene
+  sphpack init cylinder.toml                writes it
+  sphpack init --schema scene.schema.json   what editors complete and check scenes by: write
+                                            #:schema scene.schema.json
+                                            as the first line of a scene")]
 pub(super) struct InitArguments {
     /// Where to write it [default: standard output]
     pub(super) file: Option<PathBuf>,
+    /// Write the JSON Schema of scenes instead
+    #[arg(long)]
+    pub(super) schema: bool,
     /// Replace the file if it exists
     #[arg(long)]
     pub(super) force: bool,

@@ -18,6 +18,7 @@ mod pack;
 mod plain_text;
 mod progress;
 mod quality;
+mod results;
 mod summary;
 mod threads;
 
@@ -84,10 +85,21 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
 /// [`Error::System`] where it takes no more for another reason, a full disk for example.
 fn say(text: &str) -> Result<(), Error> {
     let mut to = std::io::stdout().lock();
-    match to.write_all(text.as_bytes()).and_then(|()| to.flush()) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::System(format!(
+    (to.write_all(text.as_bytes()).and_then(|()| to.flush())).or_else(unless_closed)
+}
+
+/// Says it on standard error, where standard output is for something else.
+fn say_aside(text: &str) {
+    // Nobody can be told that it fails.
+    let _ = std::io::stderr().write_all(text.as_bytes());
+}
+
+/// A fault of standard output; none where who reads it has gone.
+fn unless_closed(e: std::io::Error) -> Result<(), Error> {
+    match e.kind() {
+        ErrorKind::BrokenPipe => Ok(()),
+        _ => Err(Error::System(format!(
             "standard output cannot be written ({e}), so what was to be said is lost; files that were asked for are written"
         ))),
-        _ => Ok(()),
     }
 }

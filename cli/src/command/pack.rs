@@ -1,10 +1,9 @@
 //! `sphpack pack`.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
-use sphpack_neighbors::point;
 use sphpack_packing::StopReason;
 use sphpack_packing::pace::Pace;
 use sphpack_packing::problem::size;
@@ -14,17 +13,14 @@ use super::duration::duration;
 use super::keeping::Keeping;
 use super::plain_text::visible;
 use super::progress::Watcher;
-use super::{interrupt, memory_guard, outputs, say, summary, threads};
+use super::results::Results;
+use super::{interrupt, memory_guard, say, say_aside, summary, threads};
 use crate::Error;
 use crate::error::{DONE, INTERRUPTED, NOT_CONVERGED};
-use crate::files::{AtomicFiles, PARTICLE_FORMATS, ParticleFormat, put};
 use crate::opened::{Opened, opened};
-use crate::picture::{PictureFormat, Subject, draw};
 use crate::plan::{available_bytes, planned_of};
-use crate::report::peak_memory_bytes;
 use crate::run::{Options, Outcome, run_opened};
 use crate::scene::{Method, Scene};
-use crate::table::Table;
 
 /// The margin around a body without a scene, in ∆s.
 const MARGIN_OVER_SPACING: f64 = 8.0;
@@ -39,10 +35,10 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
     let notes = summary::notes(&scene.notes);
     // Its settings picked: a checkpoint is of these.
     let scene = opened.scene.clone();
-    let files = Files::new(arguments, &scene, opened.dimension)?;
+    let results = Results::new(arguments, &scene, opened.dimension)?;
     threads::start(arguments.threads)?;
     if arguments.dry_run {
-        return dry_run(opened, &files, &notes, arguments.quiet);
+        return dry_run(opened, &results, &notes, arguments.quiet);
     }
     if !arguments.quiet {
         let _ = write!(std::io::stderr(), "{notes}");
@@ -51,7 +47,7 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
         // A step like those that follow, no message: a refusal is one message.
         let _ = write!(std::io::stderr(), "{}", summary::picked(picked));
     }
-    let keeping = Keeping::new(arguments, &scene, &files.particles[0].0)?;
+    let keeping = Keeping::new(arguments, &scene, &results.first)?;
     interrupt::watch(arguments.quiet)?;
     memory_guard::watch(available_bytes());
     let mut watcher = Watcher::new(arguments.quiet, keeping);
@@ -68,9 +64,13 @@ pub(super) fn run(arguments: &PackArguments) -> Result<u8, Error> {
             let _ = writeln!(std::io::stderr(), "sphpack: warning: {words}");
         }
     }
-    let written = files.write(&scene, &mut outcome, arguments.force, begin)?;
+    let written = results.write(&scene, &mut outcome, arguments.force, begin)?;
     if !arguments.quiet {
-        say(&format!("{notes}{}", summary::of(&outcome, &written)))?;
+        let closing = format!("{notes}{}", summary::of(&outcome, &written));
+        match results.to_output {
+            true => say_aside(&closing),
+            false => say(&closing)?,
+        }
     }
     keeping.end(stop_reason(&outcome) == StopReason::Interrupted);
     let status = match stop_reason(&outcome) {
@@ -189,9 +189,9 @@ fn positive(name: &str, value: f64) -> Result<(), Error> {
     )))
 }
 
-fn dry_run(opened: Opened, files: &Files, notes: &str, is_quiet: bool) -> Result<u8, Error> {
-    let are_held = (files.particles.iter()).any(|(_, format)| !format.is_read_by_column());
-    let plan = planned_of(opened, available_bytes())?.with_files(files.picture.is_some(), are_held);
+fn dry_run(opened: Opened, results: &Results, notes: &str, is_quiet: bool) -> Result<u8, Error> {
+    let (has_copy, are_held) = results.copies_and_holds();
+    let plan = planned_of(opened, available_bytes())?.with_files(has_copy, are_held);
     if !is_quiet {
         for (body, repairs) in &plan.repairs {
             warn(body, repairs);
@@ -224,171 +224,4 @@ fn dry_run(opened: Opened, files: &Files, notes: &str, is_quiet: bool) -> Result
         duration(each / rayon::current_num_threads() as f64),
     ))?;
     Ok(DONE)
-}
-
-/// Writes particles into the system's folder for temporary files, where their own takes none: they may have taken hours. In a format
-/// that holds all of them: another may be why they could not be written.
-fn rescue(rows: &Table, path: &Path, format: ParticleFormat) -> Option<PathBuf> {
-    let stem = path.file_stem()?.to_string_lossy();
-    let known = PARTICLE_FORMATS.into_iter();
-    let (format, ending) =
-        (known.clone().find(|(own, _)| *own == format)).or_else(|| known.clone().next())?;
-    let name = format!("{stem}.rescued-{}.{ending}", std::process::id());
-    let elsewhere = std::env::temp_dir().join(name);
-    let mut files = AtomicFiles::new(false);
-    (files.write(&elsewhere, |to| format.write(rows, to))).ok()?;
-    files.finish().ok()?;
-    Some(elsewhere)
-}
-
-/// The files that will be written.
-struct Files {
-    particles: Vec<(PathBuf, ParticleFormat)>,
-    picture: Option<(PathBuf, PictureFormat)>,
-    report: Option<PathBuf>,
-}
-
-impl Files {
-    /// What was asked for, if it can be written.
-    fn new(arguments: &PackArguments, scene: &Scene, dimension: usize) -> Result<Self, Error> {
-        let mut names = arguments.output.clone();
-        for path in names
-            .iter()
-            .chain(&arguments.picture)
-            .chain(&arguments.report)
-        {
-            outputs::check_name(path)?;
-        }
-        if names.is_empty() {
-            names.push(PathBuf::from(format!("{}.vtu", scene.name)));
-        }
-        let particles = names
-            .into_iter()
-            .map(|path| ParticleFormat::of(&path).map(|format| (path, format)))
-            .collect::<Result<Vec<_>, _>>()?;
-        for (path, format) in &particles {
-            format.refuse_unsuited(path, scene)?;
-        }
-        let picture = match &arguments.picture {
-            Some(path) => Some((path.clone(), PictureFormat::of(path, Some(dimension))?)),
-            None => None,
-        };
-        let report = arguments.report.clone();
-        if let Some(path) = &report {
-            let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-            if ending.as_deref() != Some("json") {
-                return Err(Error::input(path, "the report is JSON; name it .json"));
-            }
-        }
-        if let Some(path) = &arguments.checkpoint {
-            outputs::check_name(path)?;
-            if path.extension().is_none_or(|ending| ending != "checkpoint") {
-                let message = "a checkpoint is no particle file; name it .checkpoint";
-                return Err(Error::input(path, message));
-            }
-        }
-        let files = Self {
-            particles,
-            picture,
-            report,
-        };
-        if !arguments.dry_run {
-            let mut inputs = vec![arguments.input.clone()];
-            inputs.extend(scene.files().map(|file| scene.resolve(file)));
-            let paths = files.paths();
-            outputs::check(&paths.iter().collect::<Vec<_>>(), &inputs, arguments.force)?;
-            if let Some(path) = &arguments.checkpoint {
-                outputs::check(&[path], &inputs, true)?;
-            }
-        }
-        Ok(files)
-    }
-
-    fn paths(&self) -> Vec<PathBuf> {
-        let particles = self.particles.iter();
-        let particles = particles.flat_map(|(path, format)| {
-            [Some(path.clone()), format.beside(path)]
-                .into_iter()
-                .flatten()
-        });
-        let picture = self.picture.iter().map(|(path, _)| path.clone());
-        particles
-            .chain(picture)
-            .chain(self.report.clone())
-            .collect()
-    }
-
-    /// Writes them all, and says which and with how many particles.
-    fn write(
-        &self,
-        scene: &Scene,
-        outcome: &mut Outcome,
-        may_replace: bool,
-        begin: Instant,
-    ) -> Result<Vec<String>, Error> {
-        let writing = Instant::now();
-        let mut files = AtomicFiles::new(may_replace);
-        let shown = |path: &Path| visible(&path.display().to_string());
-        let mut written = Vec::new();
-        // A picture shows what files leave out.
-        let table = if self.picture.is_some() {
-            outcome.table.clone()
-        } else {
-            std::mem::take(&mut outcome.table)
-        };
-        let rows = outcome.included(table, scene);
-        outcome.packing.forget_columns();
-        let (first, first_format) = &self.particles[0];
-        let rescued = |error: Error| {
-            let elsewhere = (error.is_all_lost()).then(|| rescue(&rows, first, *first_format));
-            match elsewhere.flatten() {
-                Some(elsewhere) => error.with_kept(&[elsewhere], &[]),
-                None => error,
-            }
-        };
-        for (path, format) in &self.particles {
-            let put = put(&mut files, *format, &rows, path).map_err(&rescued)?;
-            let remark = if put.is_compared {
-                ""
-            } else {
-                ", not read again for want of memory"
-            };
-            written.push(format!(
-                "{} ({} particles and {} frozen ones{remark})",
-                shown(path),
-                crate::picture::grouped(put.particles - put.frozen),
-                crate::picture::grouped(put.frozen)
-            ));
-            written.extend(format.beside(path).map(|beside| shown(&beside)));
-        }
-        if let Some((path, format)) = &self.picture {
-            let report = &outcome.report;
-            let corner =
-                |values: &Option<Vec<f64>>| point::of_slice(values.as_deref().unwrap_or(&[]));
-            let subject = Subject {
-                name: &scene.name,
-                table: &outcome.table,
-                loops: &outcome.loops,
-                domain: [
-                    corner(&report.scene.domain.min),
-                    corner(&report.scene.domain.max),
-                ],
-                spacing: report.spacing,
-                is_unfinished: !(report.converged && report.audit.passed),
-            };
-            (files.write(path, |to| draw(&subject, *format, to))).map_err(&rescued)?;
-            written.push(shown(path));
-        }
-        let report = &mut outcome.report;
-        report.seconds.output = writing.elapsed().as_secs_f64();
-        report.seconds.total = begin.elapsed().as_secs_f64();
-        report.peak_memory_bytes = peak_memory_bytes();
-        if let Some(path) = &self.report {
-            let json = report.to_json();
-            (files.write(path, |to| to.write_all(json.as_bytes()))).map_err(&rescued)?;
-            written.push(shown(path));
-        }
-        files.finish().map_err(&rescued)?;
-        Ok(written)
-    }
 }

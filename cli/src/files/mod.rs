@@ -34,6 +34,7 @@ mod npy_tests;
 mod npz;
 mod npz_read;
 mod number_type;
+mod part;
 mod ply;
 mod ply_read;
 mod put;
@@ -82,6 +83,7 @@ pub use lammps_read::read_lammps;
 pub use npy_read::read_npy;
 pub use npz::write_npz;
 pub use npz_read::read_npz;
+pub(crate) use part::{Owners, Part};
 pub use ply::write_ply;
 pub use ply_read::read_ply;
 pub(crate) use put::put;
@@ -97,21 +99,23 @@ pub use vtu::write_vtu;
 pub use vtu_read::read_vtu;
 
 /// Writes particles into a file whose ending says the format: whole or not at all, and read again to see that it holds what it
-/// should. `may_replace`: whether a file that exists may be replaced.
+/// should. With `{body}` in its name there is a file for each body and for the fluid, with `{side}` one for each side; all of them or none.
+/// `may_replace`: whether a file that exists may be replaced.
 ///
 /// # Errors
-/// [`Error::Input`] for an ending that is none of [`PARTICLE_FORMATS`] and [`SOLVER_FORMATS`], and where the name is taken by what may not be replaced;
-/// [`Error::Write`].
+/// [`Error::Input`] for an ending that is none of [`PARTICLE_FORMATS`] and [`SOLVER_FORMATS`], where the name is taken by what may not be replaced, and where
+/// a body's name can be that of no file; [`Error::Write`].
 pub fn save(table: &Table, path: &Path, may_replace: bool) -> Result<(), Error> {
     let format = ParticleFormat::of(path)?;
-    for path in [Some(path.to_owned()), format.beside(path)]
-        .into_iter()
-        .flatten()
-    {
+    let parts = Owners::of_table(table).files(path)?;
+    let both = |path: &Path| [Some(path.to_owned()), format.beside(path)];
+    for path in (parts.iter()).flat_map(|(path, _)| both(path)).flatten() {
         refuse_taken(&path, may_replace, "let it be replaced")?;
     }
     let mut files = AtomicFiles::new(may_replace);
-    put(&mut files, format, table, path)?;
+    for (path, part) in &parts {
+        put(&mut files, format, part, table, path)?;
+    }
     files.finish()
 }
 

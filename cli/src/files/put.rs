@@ -5,11 +5,8 @@ use std::path::Path;
 
 use sphpack_packing::Kind;
 
-use super::format::body_of;
-use super::reload::FLUID;
-use super::{AtomicFiles, ParticleFormat, compare, write_bi4_xml};
+use super::{AtomicFiles, Part, ParticleFormat, compare, write_bi4_xml};
 use crate::Error;
-use crate::scene::advice;
 use crate::table::Table;
 
 /// What was put into a set of files.
@@ -22,26 +19,18 @@ pub(crate) struct Written {
     pub(crate) is_compared: bool,
 }
 
-/// Writes particles under temporary names and has what is written read again and compared with the table.
+/// Writes a part of the particles under temporary names and has what is written read again and compared with the table.
 ///
 /// # Errors
-/// [`Error::Input`] where no body has the name that the file's name asks for; [`Error::Write`] where they cannot be written, the
-/// format cannot hold them, or what is read again differs.
+/// [`Error::Write`] where they cannot be written, the format cannot hold them, or what is read again differs.
 pub(crate) fn put(
     files: &mut AtomicFiles,
     format: ParticleFormat,
+    part: &Part,
     table: &Table,
     path: &Path,
 ) -> Result<Written, Error> {
-    let one;
-    let table = match body_of(path).filter(|_| format == ParticleFormat::ReloadBody) {
-        None => table,
-        Some(name) => {
-            refuse_unknown(path, &name, table.bodies.iter().map(String::as_str))?;
-            one = table.filtered(|i| table.body_name(i).unwrap_or(FLUID) == name);
-            &one
-        }
-    };
+    let table = &*part.rows(table);
     let mut is_compared = true;
     files.write_and_check(
         path,
@@ -67,23 +56,4 @@ pub(crate) fn put(
             .count(),
         is_compared,
     })
-}
-
-/// Refuses the name of a body in the name of a file where there is none.
-pub(super) fn refuse_unknown<'a>(
-    path: &Path,
-    name: &str,
-    bodies: impl Iterator<Item = &'a str>,
-) -> Result<(), Error> {
-    let known: Vec<&str> = bodies.chain([FLUID]).collect();
-    if known.contains(&name) {
-        return Ok(());
-    }
-    Err(Error::input(
-        path,
-        format!(
-            "NAME_rld.xml holds the particles of the body NAME, and none is called \"{name}\"; {}",
-            advice(name, &known)
-        ),
-    ))
 }

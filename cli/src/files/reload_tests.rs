@@ -66,6 +66,20 @@ fn a_file_for_one_body_is_asked_for_by_its_name() {
     let message = save(&table, &path, false).unwrap_err().to_string();
     assert!(message.contains("did you mean \"wing\"?"), "{message}");
     assert!(!path.exists());
+    // A file for each that has particles; none where one of them cannot be.
+    let all = folder.path().join("set-{body}.csv");
+    save(&table, &all, false).unwrap();
+    for (file, rows) in [
+        ("set-wing.csv", 4),
+        ("set-left flap.csv", 3),
+        ("set-fluid.csv", 5),
+    ] {
+        let columns = Columns::read(&folder.path().join(file)).unwrap();
+        assert_eq!(columns.numbers["x"].len(), rows);
+    }
+    assert!(!folder.path().join("set-void.csv").exists());
+    let message = save(&table, &all, false).unwrap_err().to_string();
+    assert!(message.contains("set-wing.csv"), "{message}");
     // All in one are no single body's.
     let path = folder.path().join("Reload.xml");
     save(&table, &path, false).unwrap();

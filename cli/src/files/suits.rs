@@ -5,8 +5,6 @@ use std::path::Path;
 use sphpack_packing::Kind;
 
 use super::ParticleFormat;
-use super::format::body_of;
-use super::put::refuse_unknown;
 use super::reload::FLUID;
 use crate::Error;
 use crate::scene::{Masses, Role, Scene};
@@ -58,17 +56,14 @@ impl ParticleFormat {
                 body.name
             ));
         }
-        let bodies = || scene.body.iter().map(|body| body.name.as_str());
+        let mut bodies = scene.body.iter().map(|body| body.name.as_str());
         let is_reload = matches!(self, Self::Reload | Self::ReloadBody);
-        if is_reload && bodies().any(|name| name == FLUID) {
+        if is_reload && bodies.any(|name| name == FLUID) {
             return refuse(format!(
                 "a body is called \"{FLUID}\", as the fluid is in this file; give the body another name"
             ));
         }
-        match body_of(path).filter(|_| self == Self::ReloadBody) {
-            Some(name) => refuse_unknown(path, &name, bodies()),
-            None => Ok(()),
-        }
+        Ok(())
     }
 
     /// What has only one mass, where that is all a format knows.

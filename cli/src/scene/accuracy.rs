@@ -59,6 +59,7 @@ impl fmt::Display for AccuracyMeasure {
 
 /// `accuracy = { linf = 0.002 }`: one measure and what it may come to.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct Accuracy {
     /// [`AccuracyMeasure::Linf`].

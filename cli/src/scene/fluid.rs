@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What is between the bodies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct FluidSpec {
     /// Physical density.
@@ -17,6 +18,7 @@ pub struct FluidSpec {
 
 /// Fluid at rest under gravity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Hydrostatic {
     /// Acceleration, scene units over time squared, one entry per axis.

@@ -49,6 +49,12 @@ impl FromStr for LengthUnit {
 }
 
 impl LengthUnit {
+    /// The signs of all.
+    #[cfg(feature = "schema")]
+    pub(super) fn names() -> [&'static str; 7] {
+        UNITS.map(|unit| unit.name)
+    }
+
     /// What is said where a body's file is in it.
     pub(crate) fn note(self, body: &str) -> String {
         format!(

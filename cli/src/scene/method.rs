@@ -13,6 +13,7 @@ use super::advice;
 
 /// How particles are settled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
     /// Surface first, counts balanced, then a minimiser.

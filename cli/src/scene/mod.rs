@@ -17,9 +17,14 @@ mod options;
 mod output;
 mod parse;
 mod parser_words;
+mod quality;
 #[cfg(test)]
 mod reading_tests;
 mod refinement;
+#[cfg(feature = "schema")]
+mod schema;
+#[cfg(all(test, feature = "schema"))]
+mod schema_tests;
 mod shape;
 mod slips;
 mod solver_words;
@@ -47,12 +52,16 @@ pub(crate) use named::kernel_by_name;
 pub(crate) use nearest::advice;
 pub use options::{AgitatedOptions, AgitatorsAre, HybridOptions};
 pub use output::{OutputSpec, Surroundings};
+pub use quality::QualitySpec;
 pub use refinement::{RefinementSpec, RegionSpec};
+#[cfg(feature = "schema")]
+pub use schema::json_schema;
 pub use shape::{SHAPES, Shape, ShapeInfo};
 pub use template::TEMPLATE;
 
 /// Bodies in a box, and how to pack them. Written as TOML; every field has the meaning of its key there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The name in titles and of files: the scene file's, without its ending.
@@ -90,6 +99,7 @@ pub struct Scene {
 
 /// The box: either `min` and `max`, or a `margin` around the bodies.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct DomainSpec {
     /// Lower corner, scene units.
@@ -108,6 +118,7 @@ pub struct DomainSpec {
 
 /// What a body is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
     /// Its inside is filled with solid particles.
@@ -122,6 +133,7 @@ pub enum Role {
 
 /// A body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BodySpec {
     /// The name in files and reports; "body", "body 2", … where left out.
@@ -152,9 +164,11 @@ pub struct BodySpec {
     pub density: f64,
     /// Where its boundary particles sit.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "schema::inset"))]
     pub surface: Inset,
     /// How many particles parts get that are thinner than ∆s.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "schema::thin"))]
     pub thin: Thin,
     /// With `refinement`, the spacing at its surface, scene units; the scene's where left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -166,6 +180,7 @@ pub struct BodySpec {
 
 /// A rotation in space.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Rotation {
     /// Direction of the axis, of any length.
@@ -176,6 +191,7 @@ pub struct Rotation {
 
 /// How the free particles are left at the end, by methods that minimise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Finish {
     /// A weak repulsion keeps pairs apart, and the density is level.
@@ -191,6 +207,7 @@ pub enum Finish {
 
 /// Which particles of a balanced packing settle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum BandWidth {
     /// Those near a surface; the others stay on their lattice.
@@ -202,6 +219,7 @@ pub enum BandWidth {
 
 /// What particles weigh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Masses {
     /// All particles of a body, and of the fluid, alike; surface particles may differ a little from the others.
@@ -213,6 +231,7 @@ pub enum Masses {
 
 /// How frozen particles are arranged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Frozen {
     /// The lattice of the inside, continued.
@@ -224,6 +243,7 @@ pub enum Frozen {
 
 /// How to pack.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct PackingSpec {
     /// The method.
@@ -236,6 +256,7 @@ pub struct PackingSpec {
         with = "named::optional_kernel",
         skip_serializing_if = "Option::is_none"
     )]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "schema::kernel"))]
     pub kernel: Option<KernelKind>,
     /// Its smoothing length over ∆s; `None` is the method's own.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -245,6 +266,7 @@ pub struct PackingSpec {
     pub(crate) h_over_diagonal: Option<f64>,
     /// The starting lattice; `None` is "auto".
     #[serde(with = "named::lattice")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "schema::lattice"))]
     pub lattice: Option<Lattice>,
     /// The arrangement of frozen particles.
     pub frozen: Frozen,
@@ -252,6 +274,7 @@ pub struct PackingSpec {
     pub velocity_tolerance: f64,
     /// The minimiser; `None` is the method's own: "lbfgs" for balanced, none for hybrid, which damps.
     #[serde(with = "named::minimiser", skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "schema::minimiser"))]
     pub minimiser: Option<MinimiserKind>,
     /// Methods that minimise stop where the largest force times h falls below this; `None` is 10⁻³ for an even finish,
     /// 10⁻⁵ for a consistent one.
@@ -393,20 +416,6 @@ impl Default for PackingSpec {
             given: Given::default(),
         }
     }
-}
-
-/// How the result is judged; as packed where left out.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct QualitySpec {
-    /// The kernel that measures.
-    #[serde(with = "named::optional_kernel")]
-    pub kernel: Option<KernelKind>,
-    /// Its smoothing length over ∆s.
-    pub h_over_spacing: Option<f64>,
-    /// The same over √D ∆s, as in [`PackingSpec`].
-    #[serde(skip)]
-    pub(crate) h_over_diagonal: Option<f64>,
 }
 
 impl Scene {

@@ -10,6 +10,7 @@ const MOST_TIME_STEP: f64 = 10.0;
 
 /// Of the method hybrid; its defaults are Negi & Ramachandran's algorithm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct HybridOptions {
     /// The part of N_s that becomes boundary particles at the start; 0: none, Negi & Ramachandran (2021), §3.1.9 have
@@ -99,6 +100,7 @@ impl HybridOptions {
 
 /// What the agitators of the method agitated do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum AgitatorsAre {
     /// They run on their curves.
@@ -112,6 +114,7 @@ pub enum AgitatorsAre {
 
 /// Of the method agitated; its defaults are Negi & Ramachandran's.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct AgitatedOptions {
     /// What agitators do.

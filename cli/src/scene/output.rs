@@ -5,9 +5,11 @@ use sphpack_packing::Kind;
 
 /// What is written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct OutputSpec {
     /// Names of the kinds of particles in the files.
+    #[cfg_attr(feature = "schema", schemars(schema_with = "super::schema::kinds"))]
     pub include: Vec<String>,
     /// A larger box that the files fill around the domain, on the lattice that the frozen particles begin (Negi &
     /// Ramachandran 2021, fig. 3).
@@ -17,6 +19,7 @@ pub struct OutputSpec {
 
 /// A box around the domain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Surroundings {
     /// Lower corner, scene units.

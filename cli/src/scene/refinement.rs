@@ -11,6 +11,7 @@ use super::{BodySpec, Finish, Frozen, Masses, Scene, Shape};
 
 /// Particles that grow with the distance from surfaces and regions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RefinementSpec {
     /// The coarsest spacing, scene units.
@@ -31,6 +32,7 @@ pub struct RefinementSpec {
 
 /// A region with a spacing of its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RegionSpec {
     /// Where.

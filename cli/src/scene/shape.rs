@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// The shape of a body; all lengths in scene units, before the body's scale, rotation and translation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum Shape {

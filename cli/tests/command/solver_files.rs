@@ -52,6 +52,95 @@ fn every_solver_gets_its_files() {
 }
 
 #[test]
+fn a_file_for_each_body_or_side() {
+    let hole = "[[body]]\nname = \"hole\"\nrole = \"void\"\nshape = { circle = { center = [0.0, 0.7], radius = 0.25 } }\n";
+    let scene = format!("{SCENE}{hole}");
+    let desk = Desk::new().with("two.toml", scene.as_str());
+    let names = ["all.csv", "of-{body}.csv", "{side}.npz", "{body}_rld.xml"];
+    let mut arguments = vec!["pack", "two.toml"];
+    arguments.extend(names.iter().flat_map(|name| ["-o", name]));
+    let said = desk.succeed(&arguments).stdout;
+    let made = [
+        "all.csv",
+        "fluid.npz",
+        "fluid_rld.xml",
+        "left_rld.xml",
+        "of-fluid.csv",
+        "of-left.csv",
+        "of-right.csv",
+        "right_rld.xml",
+        "solid.npz",
+        "two.toml",
+    ];
+    assert_eq!(desk.files(), made);
+    let read = |name: &str| Columns::read(&desk.path().join(name)).expect("columns");
+    let all = read("all.csv");
+    let places = |of: &Columns, is_in: &dyn Fn(usize) -> bool| {
+        let [x, y] = ["x", "y"].map(|axis| &of.numbers[axis]);
+        let rows = (0..x.len()).filter(|&i| is_in(i));
+        rows.map(|i| [x[i], y[i]]).collect::<Vec<_>>()
+    };
+    for (name, column, word) in [
+        ("of-left.csv", "body", "left"),
+        ("of-right.csv", "body", "right"),
+        ("of-fluid.csv", "body", ""),
+        ("solid.npz", "side", "solid"),
+        ("fluid.npz", "side", "fluid"),
+        ("left_rld.xml", "body", "left"),
+        ("fluid_rld.xml", "body", ""),
+    ] {
+        let expected = places(&all, &|i| all.words[column][i] == word);
+        assert!(!expected.is_empty());
+        assert_eq!(places(&read(name), &|_| true), expected, "{name}");
+        assert!(
+            said.contains(&format!("{name} ({} particles", expected.len())),
+            "{said}"
+        );
+    }
+    // Every one of them is asked about.
+    desk.refuse(
+        &["pack", "two.toml", "-o", "of-{body}.csv"],
+        &["of-left.csv", "--force"],
+    );
+    desk.refuse(
+        &["pack", "two.toml", "-o", "{body}-{side}.csv"],
+        &["of one body or of one side"],
+    );
+    for name in ["a/b", "a:b", " "] {
+        let desk = Desk::new().with("two.toml", scene.replace("left", name));
+        desk.refuse(
+            &["pack", "two.toml", "-o", "{body}.csv"],
+            &[name, "which no file can be"],
+        );
+        assert_eq!(desk.files(), ["two.toml"]);
+    }
+    let desk = Desk::new().with("two.toml", scene.replace("left", "fluid"));
+    desk.refuse(
+        &["pack", "two.toml", "-o", "{body}.csv"],
+        &["a body is called \"fluid\""],
+    );
+}
+
+#[test]
+fn particles_go_to_standard_output() {
+    let desk = Desk::new().with("two.toml", SCENE);
+    let alone = desk.succeed(&["pack", "two.toml", "-o", "-"]);
+    assert_eq!(desk.files(), ["two.toml"]);
+    assert!(
+        alone.stderr.contains("audit      passed"),
+        "{}",
+        alone.stderr
+    );
+    let both = desk.succeed(&["pack", "two.toml", "-o", "-", "-o", "o.csv", "--quiet"]);
+    assert_eq!(both.stdout.as_bytes(), desk.read("o.csv"));
+    assert_eq!((both.stdout, both.stderr.as_str()), (alone.stdout, ""));
+    desk.refuse(
+        &["pack", "two.toml", "-o", "-", "-o", "-"],
+        &["asked for twice"],
+    );
+}
+
+#[test]
 fn what_a_solver_cannot_hold_is_refused_before_the_work() {
     let with = |more: &str| Desk::new().with("two.toml", SCENE.to_owned() + more);
     let refuse = |desk: &Desk, name: &str, parts: &[&str]| {
