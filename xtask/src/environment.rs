@@ -3,17 +3,22 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// The Python of an environment in a folder.
+pub(crate) fn program_of(folder: &Path) -> PathBuf {
+    folder.join(if cfg!(windows) {
+        "Scripts/python.exe"
+    } else {
+        "bin/python"
+    })
+}
+
 /// The Python of an environment with some packages; `None`, which is said, where they cannot be had.
 pub(crate) fn environment(
     python: &Path,
     folder: &Path,
     packages: &[&str],
 ) -> Result<Option<PathBuf>, String> {
-    let own = folder.join(if cfg!(windows) {
-        "Scripts/python.exe"
-    } else {
-        "bin/python"
-    });
+    let own = program_of(folder);
     if !own.exists() {
         said(Command::new(python).args(["-m", "venv"]).arg(folder))?;
     }

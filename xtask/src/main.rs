@@ -22,6 +22,7 @@ mod flow;
 mod front;
 mod fuzz;
 mod gaps;
+mod guide;
 mod interface;
 mod kept;
 mod lattices;

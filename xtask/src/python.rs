@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::arguments::Arguments;
-use crate::environment::{environment, said};
+use crate::environment::{environment, program_of, said};
 use crate::workspace::root;
 
 /// The oldest Python that the package is for.
@@ -40,13 +40,36 @@ impl Settings {
     }
 }
 
+/// The package as [`run`] has left it.
+#[derive(Debug)]
+pub(crate) struct Built {
+    /// An interpreter that has what it needs.
+    pub(crate) python: PathBuf,
+    /// The folder that it is imported from.
+    pub(crate) site: PathBuf,
+}
+
+/// The package, where it is built.
+pub(crate) fn built() -> Option<Built> {
+    let home = home();
+    let built = Built {
+        python: program_of(&home.join("environment")),
+        site: home.join("site"),
+    };
+    (built.python.is_file() && built.site.join("sphpack").is_dir()).then_some(built)
+}
+
+fn home() -> PathBuf {
+    root().join("target/python")
+}
+
 /// Builds the package and runs its tests.
 pub(crate) fn run(settings: Settings) -> Result<(), String> {
     let Some(python) = python() else {
         eprintln!("── there is no Python from 3.10 on: left out");
         return Ok(());
     };
-    let home = root().join("target/python");
+    let home = home();
     let Some(python) = environment(&python, &home.join("environment"), &NEEDED)? else {
         return Ok(());
     };

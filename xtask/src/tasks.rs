@@ -5,8 +5,8 @@ use crate::scene_fuzz::{self, estimates, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
-    balanced, bodies, ci, compare, corpora, draw, flow, front, fuzz, lattices, python, reliability,
-    reproduction, round_trip, speed, stability, steady, tidy, variable,
+    balanced, bodies, ci, compare, corpora, draw, flow, front, fuzz, guide, lattices, python,
+    reliability, reproduction, round_trip, speed, stability, steady, tidy, variable,
 };
 
 /// What is left to do once the arguments are read.
@@ -24,7 +24,7 @@ pub(crate) struct Task {
 }
 
 /// In the order of the usage; of one name the forms with flags come first.
-pub(crate) const TASKS: [Task; 25] = [
+pub(crate) const TASKS: [Task; 26] = [
     Task {
         name: "ci",
         known: &[],
@@ -298,6 +298,18 @@ pub(crate) const TASKS: [Task; 25] = [
         read: |given| {
             let settings = bodies::Settings::of(given)?;
             Ok(Box::new(move || bodies::run(&settings)))
+        },
+    },
+    Task {
+        name: "guide",
+        known: guide::Settings::KNOWN,
+        about: &[
+            "runs every command of docs/guide, looks that every key and column is told, and makes a site of it in",
+            "target/guide where mdBook is; --program names the command, where it is not to be built",
+        ],
+        read: |given| {
+            let settings = guide::Settings::of(given);
+            Ok(Box::new(move || guide::run(&settings)))
         },
     },
     Task {

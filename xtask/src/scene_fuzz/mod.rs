@@ -106,7 +106,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
 }
 
 /// Builds the command; it is beside this program.
-fn build() -> Result<PathBuf, String> {
+pub(crate) fn build() -> Result<PathBuf, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
         // Both, so that their common dependencies are built with the features that they have already.
