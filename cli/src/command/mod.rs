@@ -20,6 +20,7 @@ mod progress;
 mod quality;
 mod summary;
 mod threads;
+mod view;
 
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
@@ -56,6 +57,7 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
             Command::Pack(pack) => pack::run(&pack),
             Command::Check(check) => check::run(&check),
             Command::Quality(quality) => quality::run(&quality),
+            Command::View(view) => view::run(&view),
             Command::Init(init) => init::run(&init),
             Command::List { what } => list::run(what),
         },
