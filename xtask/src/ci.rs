@@ -9,7 +9,9 @@ use std::time::Instant;
 use crate::scene_fuzz::{self, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
-use crate::{balanced, bodies, front, python, reproduction, stability, steady, tidy, variable};
+use crate::{
+    balanced, bodies, front, python, reproduction, stability, steady, tidy, variable, view,
+};
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
 const RANDOM_SCENES: usize = 50;
@@ -26,7 +28,7 @@ const SCENE_FILES: usize = 1000;
 /// A check and its name.
 type Check = (&'static str, fn() -> Result<(), String>);
 
-const CHECKS: [Check; 18] = [
+const CHECKS: [Check; 19] = [
     ("house rules", || tidy::run(&root())),
     ("format", || cargo(&["fmt", "--all", "--check"], &[])),
     ("clippy", clippy),
@@ -40,6 +42,7 @@ const CHECKS: [Check; 18] = [
     ("examples", examples),
     ("packages", package),
     ("python", || python::run(python::Settings::quick())),
+    ("pages", || view::run(&view::Settings::quick())),
     ("reproduction", || {
         reproduction::run(&reproduction::Settings::quick())
     }),

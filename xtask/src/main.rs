@@ -48,6 +48,7 @@ mod steady;
 mod tasks;
 mod tidy;
 mod variable;
+mod view;
 mod workspace;
 
 use std::process::ExitCode;

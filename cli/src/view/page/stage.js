@@ -174,6 +174,7 @@ function draw() {
   for (const watcher of watchers) watcher();
 }
 
+let isBegun = false;
 let isDue = false;
 let isMoving = false;
 let atRest;
@@ -184,6 +185,7 @@ export function redraw() {
   isDue = true;
   requestAnimationFrame(() => {
     isDue = false;
+    isBegun = true;
     const begin = performance.now();
     share = isMoving ? pace.share() : 1;
     draw();
@@ -255,12 +257,8 @@ function look(from) {
   camera.updateMatrixWorld();
   const [right, up] = [new Vector3(), new Vector3()];
   camera.matrixWorld.extractBasis(right, up, new Vector3());
-  const seen = (axis) => half.reduce((sum, length, k) => sum + length * Math.abs(axis.getComponent(k)), 0);
-  const aspect = canvas.clientWidth / Math.max(1, canvas.clientHeight);
-  // Room for the marks below.
-  const height = 1.16 * Math.max(seen(up), seen(right) / aspect) || 1;
-  camera.top = height;
-  camera.bottom = -height;
+  const along = (axis) => half.reduce((sum, length, k) => sum + length * Math.abs(axis.getComponent(k)), 0);
+  seen = [along(right), along(up)];
   resize();
   controls.update();
 }
@@ -279,14 +277,23 @@ export function lookAlong(axis) {
   look(from.normalize());
 }
 
+// Half of what is to be seen, across and up.
+let seen = [1, 1];
+
+// Fits the drawing into its place, whatever that is.
 function resize() {
   renderer.setPixelRatio(window.devicePixelRatio);
   renderer.setSize(canvas.parentElement.clientWidth, canvas.parentElement.clientHeight, false);
-  const width = (camera.top * canvas.clientWidth) / Math.max(1, canvas.clientHeight);
-  camera.left = -width;
-  camera.right = width;
+  const aspect = Math.max(1, canvas.clientWidth) / Math.max(1, canvas.clientHeight);
+  // Room for the marks below.
+  camera.top = 1.16 * Math.max(seen[1], seen[0] / aspect) || 1;
+  camera.bottom = -camera.top;
+  camera.left = -camera.top * aspect;
+  camera.right = camera.top * aspect;
   camera.updateProjectionMatrix();
-  redraw();
+  // At once: the canvas is empty now.
+  if (isBegun) draw();
+  else redraw();
 }
 
 function repaint() {
