@@ -7,8 +7,6 @@ use std::time::{Duration, Instant};
 
 use serde::Deserialize;
 
-use super::starts;
-
 /// Names under which a Chromium is found.
 const NAMES: [&str; 5] = [
     "chromium",
@@ -218,6 +216,12 @@ impl Browser {
             .spawn()
             .map_err(|error| format!("{} cannot be started: {error}", self.0.display()))
     }
+}
+
+/// Whether a program starts.
+fn starts(program: &Path) -> bool {
+    let answer = Command::new(program).arg("--version").output();
+    answer.is_ok_and(|answer| answer.status.success())
 }
 
 /// Ends a browser that was started here.

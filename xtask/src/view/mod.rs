@@ -6,7 +6,6 @@ mod pages;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use sphpack::view::View;
 
@@ -230,10 +229,4 @@ fn million(desk: &Desk) -> Result<(), String> {
         shown.seconds,
     );
     expect(shown.seconds < 300.0, "million: it takes too long")
-}
-
-/// Whether a program starts.
-fn starts(program: &Path) -> bool {
-    let answer = Command::new(program).arg("--version").output();
-    answer.is_ok_and(|answer| answer.status.success())
 }
