@@ -9,6 +9,7 @@ use sphpack_packing::{DensityQuality, Fields, Kind, Lattice, ResidualQuality, Si
 use crate::Error;
 use crate::dimension::in_dimension;
 use crate::files::Columns;
+use crate::places::{check_memory, places};
 use crate::plan::available_bytes;
 
 /// Particles from a file.
@@ -102,39 +103,10 @@ impl Cloud {
     /// # Errors
     /// [`Error::Input`] where the file cannot be used.
     pub fn read(path: &Path, spacing: f64) -> Result<Self, Error> {
-        check_memory(path)?;
+        check_memory(path, "measuring")?;
         let columns = Columns::read(path)?;
-        let missing = |name: &str| {
-            Error::input(
-                path,
-                format!("there is no column \"{name}\"; it needs x and y at least"),
-            )
-        };
+        let (dimension, position) = places(&columns, path)?;
         let column = |name: &str| columns.numbers.get(name);
-        let x = column("x").ok_or_else(|| missing("x"))?;
-        let y = column("y").ok_or_else(|| missing("y"))?;
-        let z = column("z").filter(|z| z.iter().any(|&z| z != 0.0));
-        let dimension = if z.is_some() { 3 } else { 2 };
-        let position: Vec<[f64; 3]> = (0..x.len())
-            .map(|i| [x[i], y[i], z.map_or(0.0, |z| z[i])])
-            .collect();
-        if position.is_empty() {
-            return Err(Error::input(
-                path,
-                "there are no particles in it; give a file with some",
-            ));
-        }
-        if let Some(bad) = position
-            .iter()
-            .position(|&p| !point::norm_squared(p).is_finite())
-        {
-            return Err(Error::input(
-                path,
-                format!(
-                    "particle {bad} has a coordinate that is not a finite number of usual size; correct or remove it"
-                ),
-            ));
-        }
         let volume = volumes(&columns, path)?
             .unwrap_or_else(|| vec![spacing.powi(dimension as i32); position.len()]);
         let kind = match columns.words.get("kind") {
@@ -352,27 +324,3 @@ fn volumes(columns: &Columns, path: &Path) -> Result<Option<Vec<f64>>, Error> {
 
 /// What one particle takes while it is measured, its neighbours left out, bytes.
 const MEASURED_BYTES: f64 = 150.0;
-
-/// What a byte of a particle file comes to, with its columns and what is made of them.
-const BYTES_PER_BYTE: f64 = 4.0;
-
-/// Refuses a file that would not fit into memory with all that is made of it: nothing could be said once it runs out.
-fn check_memory(path: &Path) -> Result<(), Error> {
-    // What is no file, or too long for any memory, is told by who reads it.
-    let meta = std::fs::metadata(path).ok();
-    let file = meta.filter(|meta| meta.is_file() && meta.len() <= crate::files::MAX_INPUT);
-    let size = file.map_or(0, |meta| meta.len());
-    let (needed, free) = (BYTES_PER_BYTE * size as f64, available_bytes());
-    if needed <= free {
-        return Ok(());
-    }
-    let mebibytes = |bytes: f64| bytes / 1_048_576.0;
-    Err(Error::input(
-        path,
-        format!(
-            "measuring it takes about {:.0} MiB of memory, more than the {:.0} MiB allowed; where limits of the process leave so little (ulimit -v), fewer threads leave more (RAYON_NUM_THREADS=1 in the environment)",
-            mebibytes(needed),
-            mebibytes(free)
-        ),
-    ))
-}

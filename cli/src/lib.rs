@@ -93,6 +93,7 @@ mod methods;
 mod opened;
 mod overlap;
 pub mod picture;
+mod places;
 mod plan;
 mod precedence;
 pub mod prelude;
@@ -107,6 +108,7 @@ mod spacings;
 mod surroundings;
 mod table;
 mod units;
+pub mod view;
 
 pub use audit::{Audit, Audited, Unsound};
 pub use body_file::{ReadBody, body_format};

@@ -10,7 +10,7 @@ use crate::scene_fuzz::{self, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
-    balanced, bodies, front, guide, python, reproduction, stability, steady, tidy, variable,
+    balanced, bodies, front, guide, python, reproduction, stability, steady, tidy, variable, view,
 };
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
@@ -28,7 +28,7 @@ const SCENE_FILES: usize = 1000;
 /// A check and its name.
 type Check = (&'static str, fn() -> Result<(), String>);
 
-const CHECKS: [Check; 19] = [
+const CHECKS: [Check; 20] = [
     ("house rules", || tidy::run(&root())),
     ("format", || cargo(&["fmt", "--all", "--check"], &[])),
     ("clippy", clippy),
@@ -44,6 +44,7 @@ const CHECKS: [Check; 19] = [
     ("python", || python::run(python::Settings::quick())),
     // After the package that it uses.
     ("guide", || guide::run(&guide::Settings::default())),
+    ("pages", || view::run(&view::Settings::quick())),
     ("reproduction", || {
         reproduction::run(&reproduction::Settings::quick())
     }),

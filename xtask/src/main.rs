@@ -49,6 +49,7 @@ mod steady;
 mod tasks;
 mod tidy;
 mod variable;
+mod view;
 mod workspace;
 
 use std::process::ExitCode;

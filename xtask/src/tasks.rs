@@ -6,7 +6,7 @@ use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
     balanced, bodies, ci, compare, corpora, draw, flow, front, fuzz, guide, lattices, python,
-    reliability, reproduction, round_trip, speed, stability, steady, tidy, variable,
+    reliability, reproduction, round_trip, speed, stability, steady, tidy, variable, view,
 };
 
 /// What is left to do once the arguments are read.
@@ -24,7 +24,7 @@ pub(crate) struct Task {
 }
 
 /// In the order of the usage; of one name the forms with flags come first.
-pub(crate) const TASKS: [Task; 26] = [
+pub(crate) const TASKS: [Task; 27] = [
     Task {
         name: "ci",
         known: &[],
@@ -322,6 +322,18 @@ pub(crate) const TASKS: [Task; 26] = [
         read: |given| {
             let settings = round_trip::Settings::of(given)?;
             Ok(Box::new(move || round_trip::run(&settings)))
+        },
+    },
+    Task {
+        name: "view",
+        known: view::Settings::KNOWN,
+        about: &[
+            "pages of sphpack view in a Chromium, where there is one: what they say and what is seen, judged by pixels, into",
+            "target/view; a real body and a million particles, timed, too, which --quick leaves out",
+        ],
+        read: |given| {
+            let settings = view::Settings::of(given);
+            Ok(Box::new(move || view::run(&settings)))
         },
     },
 ];

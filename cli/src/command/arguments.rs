@@ -20,6 +20,7 @@ Examples:
   sphpack pack body.stl --spacing 0.02           a body, without a scene
   sphpack check body.stl                         is it closed, which way does it face, does it overlap itself?
   sphpack quality particles.csv --spacing 0.1    how even are anybody's particles?
+  sphpack view cylinder.vtu                      writes cylinder.html: the particles, to look at in a browser
 
 Exit status: 0 done and audited; 2 bad input; 3 not settled, not sound or not as accurate as asked (files are written, the summary says what is wrong); 130 interrupted (files are written); 1 anything else."
 )]
@@ -36,6 +37,8 @@ pub(super) enum Command {
     Check(CheckArguments),
     /// Measure how even anybody's particles are
     Quality(QualityArguments),
+    /// Make a page to look at anybody's particles in a browser
+    View(ViewArguments),
     /// Write a commented scene with every key
     Init(InitArguments),
     /// List what scenes can name
@@ -197,6 +200,29 @@ pub(super) struct QualityArguments {
     /// Print JSON
     #[arg(long)]
     pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The page is one file, which any current browser opens from the disk, without a network: it holds all particles, every column, and what draws them. Share it as it is. Turn by dragging (in 2-D: move), move by dragging with the right button or two fingers, zoom by wheel or pinching; point at a particle for its row, click to keep that. Particles are coloured by any column, between two numbers that can be changed; what is no number is grey. In 3-D a slice, or a half space, shows the inside. Every kind, side and body can be left out.
+
+Particles are drawn across by the column spacing, else by the root of volume, or of mass / density. Numbers are shown to 7 digits, coordinates to 10⁻⁷ of the box; coordinates are stored relative to its middle. The page has 0.8 MB, and for each particle 16 bytes for its place (11 in 2-D) and mostly 5 for each column whose values differ.
+
+Files: what `sphpack quality` reads, columns x and y at least: text (.csv, .txt, .dat), .npz, .npy, .ply, .vtu, .vtp, .vtk, and what is written for solvers (.data, .xml, .bgeo, .bi4).
+
+Examples:
+  sphpack view wing.vtu                    writes wing.html into the working directory
+  sphpack view runs/step.csv -o look.html
+  sphpack view wing.vtu --force            again, after another packing")]
+pub(super) struct ViewArguments {
+    /// The particles (.vtu, .vtp, .vtk, .csv, .txt, .dat, .npz, .npy, .ply; .data, .xml, .bgeo, .bi4)
+    pub(super) particles: PathBuf,
+    /// Write the page here (.html) [default: NAME.html in the working directory]
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// Replace the file if it exists
+    #[arg(long)]
+    pub(super) force: bool,
 }
 
 #[derive(Debug, Args)]

@@ -21,6 +21,7 @@ mod quality;
 mod results;
 mod summary;
 mod threads;
+mod view;
 
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
@@ -57,6 +58,7 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
             Command::Pack(pack) => pack::run(&pack),
             Command::Check(check) => check::run(&check),
             Command::Quality(quality) => quality::run(&quality),
+            Command::View(view) => view::run(&view),
             Command::Init(init) => init::run(&init),
             Command::List { what } => list::run(what),
         },

@@ -40,7 +40,7 @@ impl Scale {
 
 /// The colour at −1 … 1: straight lines in the perceptual space OKLab from a blue over a light grey to a red, so that
 /// equal steps look equal.
-fn diverging(t: f64) -> Colour {
+pub(crate) fn diverging(t: f64) -> Colour {
     const LOW: [f64; 3] = [0.40, -0.03, -0.155];
     const MIDDLE: [f64; 3] = [0.94, 0.0, 0.0];
     const HIGH: [f64; 3] = [0.43, 0.15, 0.075];
@@ -53,6 +53,25 @@ fn diverging(t: f64) -> Colour {
     from_oklab(std::array::from_fn(|k| {
         MIDDLE[k] + t.abs() * (end[k] - MIDDLE[k])
     }))
+}
+
+/// The colour at 0 … 1: from the same blue over a green to a yellow, ever lighter by equal steps, so that it is read without seeing
+/// red or green, too.
+pub(crate) fn sequential(t: f64) -> Colour {
+    const STOPS: [[f64; 3]; 3] = [
+        [0.40, -0.03, -0.155],
+        [0.67, -0.11, -0.01],
+        [0.94, -0.05, 0.15],
+    ];
+    let t = if t.is_finite() {
+        t.clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    let place = usize::from(t >= 0.5);
+    let share = 2.0 * t - place as f64;
+    let [from, to] = [STOPS[place], STOPS[place + 1]];
+    from_oklab(std::array::from_fn(|k| from[k] + share * (to[k] - from[k])))
 }
 
 /// OKLab (Ottosson 2020) to sRGB.
@@ -105,6 +124,18 @@ mod tests {
             );
         }
         assert_eq!(Scale::holding(f64::NAN).half, 1e-3);
+    }
+
+    #[test]
+    fn what_is_more_is_lighter() {
+        let light = |step: u32| {
+            let [red, green, blue] = sequential(f64::from(step) / 20.0).map(f64::from);
+            0.2126 * red + 0.7152 * green + 0.0722 * blue
+        };
+        for step in 0..20 {
+            assert!(light(step) + 4.0 < light(step + 1), "{step}");
+        }
+        assert_eq!(sequential(0.0), diverging(-1.0));
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod svg;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use colour::{Colour, GREY, Scale, diverging, sequential};
 pub use font::{FAMILY as FONT_FAMILY, width as text_width};
 pub use png::write as write_png;
 

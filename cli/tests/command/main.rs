@@ -25,6 +25,7 @@ mod solver_files;
 mod sound;
 mod surroundings;
 mod touching_shells;
+mod viewing;
 
 use std::fs;
 use std::path::Path;
