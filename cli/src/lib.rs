@@ -107,6 +107,7 @@ mod spacings;
 mod surroundings;
 mod table;
 mod units;
+mod walls;
 
 pub use audit::{Audit, Audited, Unsound};
 pub use body_file::{ReadBody, body_format};
@@ -121,3 +122,4 @@ pub use run::{Options, Outcome, run};
 pub use scene::Scene;
 pub use solution::{Packing, Solution};
 pub use table::{Shared, Table};
+pub use walls::{LayerReport, WallReport};
