@@ -180,6 +180,7 @@ pub(super) fn one_particle(dimension: usize) -> Table {
         residual: vec![0.0],
         normals: [(u32::MAX, flat([0.6, -0.0, 0.8]))].into(),
         pressure: vec![-1e-9],
+        distance: vec![-5e-4],
         density: vec![1e3],
         spacing: vec![1e-3],
         smoothing_length: vec![1.2e-3],
