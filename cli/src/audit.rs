@@ -3,6 +3,7 @@
 mod anew;
 mod anyone;
 mod packed;
+mod walls;
 
 use std::time::Instant;
 

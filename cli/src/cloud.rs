@@ -159,7 +159,7 @@ impl Cloud {
             .count()
     }
 
-    /// Γ and h |∇Γ| of all but the frozen particles; where none is frozen, of those farther than a support radius from
+    /// Γ and h |∇Γ| of all but the frozen particles, and those whose Γ is NaN in the file; where none is frozen, of those farther than a support radius from
     /// the edge of the box around them all.
     ///
     /// # Errors
@@ -191,8 +191,12 @@ impl Cloud {
         self.check_spacing(&bounds, support, spacing)?;
         let has_frozen = self.frozen_count() > 0;
         let inner = bounds.grown(-support);
-        let is_measured =
-            |i: usize| self.kind[i] != Kind::Frozen && (has_frozen || inner.contains(positions[i]));
+        // Our own files say of walls in layers that they are not judged.
+        let is_judged = |i: usize| {
+            let own = self.gamma.as_ref().and_then(|gamma| gamma.get(i));
+            self.kind[i] != Kind::Frozen && !own.is_some_and(|gamma| gamma.is_nan())
+        };
+        let is_measured = |i: usize| is_judged(i) && (has_frozen || inner.contains(positions[i]));
         let measured: Vec<usize> = (0..positions.len()).filter(|&i| is_measured(i)).collect();
         if measured.is_empty() {
             return Err(Error::input(

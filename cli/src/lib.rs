@@ -109,6 +109,7 @@ mod surroundings;
 mod table;
 mod units;
 pub mod view;
+mod walls;
 
 pub use audit::{Audit, Audited, Unsound};
 pub use body_file::{ReadBody, body_format};
@@ -123,3 +124,4 @@ pub use run::{Options, Outcome, run};
 pub use scene::Scene;
 pub use solution::{Packing, Solution};
 pub use table::{Shared, Table};
+pub use walls::{LayerReport, WallReport};

@@ -14,6 +14,7 @@ use crate::error::cured;
 use crate::opened::{Opened, opened};
 use crate::scene::{Fault, Frozen, Role, Scene, Shape, Surroundings};
 use crate::spacings;
+use crate::walls::{self, Layered};
 use crate::{beyond, methods, overlap, precedence, roles, units};
 
 pub(crate) use crate::memory::available_bytes;
@@ -58,6 +59,8 @@ pub(crate) struct Prepared<const D: usize> {
     pub(crate) cut: Vec<String>,
     /// What the bodies' files hold.
     pub(crate) read: Vec<ReadBody>,
+    /// The bodies that are walls in layers.
+    pub(crate) layered: Vec<Layered<D>>,
     /// Particles that files are to have.
     pub(crate) written: f64,
     /// Seconds spent on building the bodies.
@@ -228,6 +231,8 @@ where
             thin: body.thin,
         });
     }
+    let surfaces: Vec<_> = bodies.iter().map(|body| body.surface.clone()).collect();
+    let layered = walls::asked(scene, &domain, &surfaces)?;
     if let Some(Surroundings { min, max }) = &scene.output.surroundings {
         let Bounds {
             min: low,
@@ -290,6 +295,7 @@ where
     } else if scene.includes(Kind::Frozen) {
         written += estimate.frozen;
     }
+    written += layered.iter().map(Layered::count).sum::<f64>();
     let last = estimate.kept_bytes + row_bytes(written);
     estimate.memory_bytes = (estimate.memory_bytes.max(last)).max(hopeless.unwrap_or(0.0));
     let particles = estimate.particles + estimate.frozen;
@@ -331,6 +337,7 @@ where
             repairs,
             cut,
             read,
+            layered,
             written,
             seconds: begin.elapsed().as_secs_f64(),
         },

@@ -10,6 +10,7 @@ use crate::audit::Audit;
 use crate::auto::AutoReport;
 use crate::content::Spread;
 use crate::scene::Scene;
+use crate::walls::WallReport;
 
 /// The version of the report's keys.
 pub const SCHEMA: u32 = 1;
@@ -141,14 +142,29 @@ pub struct BodyReport {
     pub name: String,
     /// Volume (area) of the true body.
     pub volume_true: f64,
-    /// Volume of its particles; those on its surface count in whole for an inset surface, in half for an exact one.
+    /// Volume of its particles, with layers of these; those on its surface count in whole for an inset surface, in half for an exact one.
     pub volume: f64,
     /// Density × `volume`.
     pub mass: f64,
+    /// With layers, what they are like; `volume` and `mass` are theirs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall: Option<WallReport>,
     /// A solid as a rigid body; `None` of voids and containers, and of what goes on beyond the sides of the box.
     pub rigid: Option<RigidReport>,
     /// What was mended before it was packed, a sentence each.
     pub repairs: Vec<String>,
+}
+
+impl BodyReport {
+    /// Of a body that is a wall in layers of such a volume: its particles are no body that turns.
+    pub(crate) fn be_wall(&mut self, volume: f64, density: f64, wall: WallReport) {
+        self.volume = volume;
+        self.mass = density * volume;
+        self.wall = Some(wall);
+        if let Some(rigid) = &mut self.rigid {
+            rigid.particles = None;
+        }
+    }
 }
 
 /// A solid as a rigid body, by its surface and by its particles.
@@ -156,7 +172,7 @@ pub struct BodyReport {
 pub struct RigidReport {
     /// Of the true body.
     pub exact: Rigid,
-    /// Of its particles, as points; `None` where it has none.
+    /// Of its particles, as points; `None` where it has none, or only layers of them.
     pub particles: Option<Rigid>,
 }
 

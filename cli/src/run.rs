@@ -26,6 +26,7 @@ use crate::report::{
 use crate::scene::{Masses, Role, Scene};
 use crate::solution::{Packing, Solution};
 use crate::table::{Shared, Table};
+use crate::walls::{self, WallReport};
 
 /// What particle files say in place of the reason why settling stopped, where the audit has found something.
 const UNSOUND: &str = "unsound";
@@ -95,6 +96,7 @@ where
         read,
         repairs,
         cut,
+        layered,
         written: _,
         seconds: built,
     } = prepared;
@@ -102,8 +104,9 @@ where
     let mut packed = pack(&problem, scene, observer)?;
     let measuring = Instant::now();
     let asked = Asked::by(scene);
-    let sorted = sort(&packed, &asked)
+    let mut sorted = sort(&packed, &asked)
         .map_err(|e| Error::System(format!("particles cannot be separated: {e}")))?;
+    walls::leave_to_fluid(&layered, &packed, asked.has_fluid, &mut sorted);
     let judge = judged(&problem, scene);
     let masses = (scene.packing.masses == Masses::Corrected)
         .then(|| corrected::correct(&judge, &mut packed, &sorted, scene.packing.mass_spread));
@@ -119,8 +122,24 @@ where
         quality,
     };
     let content = Content::of(&solution.problem, &solution);
-    let audit = Audit::of(&asked, &solution, &content.volumes);
+    let mut audit = Audit::of(&asked, &solution, &content.volumes);
     let mut table = table(scene, &solution).kept_by_id(&solution.keep);
+    let next = (solution.packed.particles.id.iter())
+        .max()
+        .map_or(0, |last| last + 1);
+    let walls =
+        walls::build(layered, scene, next, &mut table).map_err(|(body, error)| Error::Body {
+            path: scene.path.clone(),
+            body: scene.body[body].name.clone(),
+            error,
+        })?;
+    let walled: Vec<(usize, f64, WallReport)> = (walls.iter())
+        .map(|wall| {
+            let body = wall.of.body;
+            let report = audit.wall(wall, &scene.body[body].name, &table);
+            (body, wall.volume(), report)
+        })
+        .collect();
     if !audit.passed && solution.packed.stop_reason == StopReason::Converged {
         table.stop_reason = UNSOUND.to_owned();
     }
@@ -140,6 +159,9 @@ where
     report.warnings.splice(0..0, cut);
     for (body, repairs) in report.bodies.iter_mut().zip(repairs) {
         body.repairs = repairs;
+    }
+    for (number, volume, wall) in walled {
+        report.bodies[number].be_wall(volume, scene.body[number].density, wall);
     }
     Ok(Outcome {
         packing: solution.into(),
@@ -239,6 +261,7 @@ fn table<const D: usize>(scene: &Scene, solution: &Solution<D>) -> Table {
             .collect(),
         pressure: at_rest.iter().map(|rest| rest.pressure).collect(),
         density: at_rest.iter().map(|rest| rest.density).collect(),
+        distance: Vec::new(),
         spacing: sizes(&|i| particles.sizes.spacing(i)),
         smoothing_length: sizes(&|i| fields.sizes.smoothing_length(i)),
         shared,
@@ -365,6 +388,7 @@ fn report<const D: usize>(
             volume_true: body.surface.volume(),
             volume,
             mass: spec.density * volume,
+            wall: None,
             rigid: (spread.as_ref())
                 .filter(|_| spec.role == Role::Solid)
                 .map(|spread| RigidReport::new(spread, spec.density)),

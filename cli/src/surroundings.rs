@@ -45,8 +45,10 @@ fn add<const D: usize>(rows: &mut Table, packed: &Packed<D>, scene: &Scene, arou
         .id
         .iter()
         .copied()
+        .chain(rows.id.iter().copied())
         .max()
         .map_or(0, |last| last + 1);
+    let has_distances = !rows.distance.is_empty();
     lattice.visit_beyond(outer, |p| {
         rows.id.push(id);
         rows.position.push(point::of_slice(&p));
@@ -62,6 +64,9 @@ fn add<const D: usize>(rows: &mut Table, packed: &Packed<D>, scene: &Scene, arou
             rows.density.push(density);
         }
         rows.mass.push(density * volume);
+        if has_distances {
+            rows.distance.push(f64::NAN);
+        }
         rows.gamma.push(f64::NAN);
         rows.residual.push(f64::NAN);
         id += 1;

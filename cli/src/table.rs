@@ -28,16 +28,20 @@ pub struct Table {
     pub volume: Vec<f64>,
     /// Density of its body or of the fluid × volume.
     pub mass: Vec<f64>,
-    /// Γ; NaN where it is not judged, of frozen particles.
+    /// Γ; NaN where it is not judged, of frozen particles and of walls in layers.
     pub gamma: Vec<f64>,
     /// h |∇Γ|; likewise.
     pub residual: Vec<f64>,
-    /// Outward unit normals of the particle surface by the ids of boundary and fixed particles: few of many.
+    /// Outward unit normals of the particle surface by the ids of boundary and fixed particles: few of many. Of a wall in layers,
+    /// those of the true surface, out of the wall.
     pub normals: HashMap<u32, [f64; 3]>,
     /// Hydrostatic pressure, 0 in solids; empty where the scene does not ask for it.
     pub pressure: Vec<f64>,
     /// Density at that pressure, solids' own; empty likewise.
     pub density: Vec<f64>,
+    /// Signed distance of the particles of a wall in layers from the true surface, scene units: negative, in the wall. NaN of all
+    /// others; empty where no body has layers.
+    pub distance: Vec<f64>,
     /// The spacing of each, scene units; empty where all have one.
     pub spacing: Vec<f64>,
     /// The smoothing length of each, scene units, by which Γ was judged; empty likewise.
@@ -150,6 +154,7 @@ impl Table {
         pick.of(&mut self.residual);
         pick.of(&mut self.pressure);
         pick.of(&mut self.density);
+        pick.of(&mut self.distance);
         pick.of(&mut self.spacing);
         pick.of(&mut self.smoothing_length);
         self
@@ -186,6 +191,13 @@ impl Table {
         own.unwrap_or(self.shared.smoothing_length)
     }
 
+    /// Whether particle `i` is of a wall in layers.
+    pub fn is_wall(&self, i: usize) -> bool {
+        self.distance
+            .get(i)
+            .is_some_and(|distance| !distance.is_nan())
+    }
+
     /// Its density: at its pressure, or at rest; 0 where nobody says.
     pub fn density_of(&self, i: usize) -> f64 {
         let own = self.density.get(i).copied();
@@ -207,7 +219,7 @@ impl Table {
     /// |Γ − 1| that this part (0 … 1) of the particles inside the domain does not exceed; 0 where there are none.
     pub fn error_of_most(&self, part: f64) -> f64 {
         let mut errors: Vec<f64> = (self.gamma.iter().zip(&self.kind))
-            .filter(|(_, kind)| **kind != Kind::Frozen)
+            .filter(|(gamma, kind)| **kind != Kind::Frozen && !gamma.is_nan())
             .map(|(gamma, _)| (gamma - 1.0).abs())
             .collect();
         errors.sort_by(f64::total_cmp);

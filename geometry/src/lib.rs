@@ -14,6 +14,7 @@
 //! | loops with defects: check, mend, join | [`Sketch`], [`Sketch::read`] |
 //! | by formula | [`Ball`], [`Ellipsoid`], [`Cuboid`], [`Cylinder`], [`Torus`] |
 //! | adaptors over any surface | [`Placed`] (by a [`Similarity`]), [`LevelInset`], [`Repeated`] (in a periodic box), [`Continued`] (beyond a box's sides) |
+//! | layers of wall points, inside a body or around it | [`wall_layers`] |
 //! | distances on a grid, and Booleans of them | [`LevelSet`], [`cut_on_grid`] |
 //! | points: even ([`Surface::sample`]), by a weight, for thin bodies | [`sample_weighted`], [`sample_particles`], [`thickness()`] |
 //! | underneath | [`Bvh`] |
@@ -46,6 +47,7 @@ mod soup;
 mod surface;
 mod thickness;
 mod thin;
+mod wall;
 mod winding;
 
 pub use bvh::{Bvh, Nearest};
@@ -79,4 +81,5 @@ pub use soup::{
 pub use surface::{Closest, Feature, Features, Surface};
 pub use thickness::thickness;
 pub use thin::{SurfaceSamples, Thin, sample_particles, sample_thin};
+pub use wall::{WallLayer, WallPoint, WallSide, WallSpec, wall_layers};
 pub use winding::FastWinding;

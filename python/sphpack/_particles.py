@@ -105,6 +105,12 @@ class Particles:
         return np.zeros(len(self)) if pressure is None else pressure
 
     @property
+    def distance(self) -> NDArray[np.float64]:
+        """Of walls in layers: signed distance to the true surface, negative in the wall, scene units. NaN for all others."""
+        distance = self._columns.get("distance")
+        return np.full(len(self), np.nan) if distance is None else distance
+
+    @property
     def gamma(self) -> NDArray[np.float64]:
         """Γ, the kernel's sum over all neighbours: 1 in an even packing. NaN for frozen particles, which are not judged."""
         return self._columns["gamma"]

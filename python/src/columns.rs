@@ -43,6 +43,7 @@ pub(crate) fn to_python<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'p
         ("residual", table.residual),
         ("normal", normal),
         ("pressure", table.pressure),
+        ("distance", table.distance),
         ("density", density),
         ("spacing", spacing),
         ("h", h),
@@ -111,6 +112,7 @@ pub(crate) fn from_python(
         residual: numbers("residual")?,
         normals,
         pressure: numbers("pressure")?,
+        distance: numbers("distance")?,
         density: numbers("density")?,
         spacing: numbers("spacing")?,
         smoothing_length: numbers("h")?,
@@ -130,6 +132,7 @@ pub(crate) fn from_python(
     ];
     let sometimes = [
         table.pressure.len(),
+        table.distance.len(),
         table.density.len(),
         table.spacing.len(),
         table.smoothing_length.len(),

@@ -9,7 +9,7 @@ use super::plain_text::visible;
 use crate::ReadBody;
 use crate::auto::{AutoReport, Picked};
 use crate::picture::grouped;
-use crate::report::Report;
+use crate::report::{BodyReport, Report};
 use crate::run::Outcome;
 use crate::solution::Packing;
 
@@ -88,6 +88,9 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
         ),
         None,
     );
+    for words in report.bodies.iter().filter_map(wall) {
+        line(&mut text, "", &words, None);
+    }
     line(&mut text, "packed", &packed(report), None);
     if let Some(words) = unfinished(report) {
         line(&mut text, "unfinished", &words, None);
@@ -110,6 +113,19 @@ pub(super) fn of(outcome: &Outcome, written: &[String]) -> String {
         Some(duration(report.seconds.output)),
     );
     text
+}
+
+/// A body's wall, where it has one: the particles of each layer.
+fn wall(body: &BodyReport) -> Option<String> {
+    let wall = body.wall.as_ref()?;
+    let counts: Vec<String> = (wall.layers.iter())
+        .map(|layer| grouped(layer.count))
+        .collect();
+    Some(format!(
+        "{}: a wall of {} in layers",
+        visible(&body.name),
+        counts.join(" + ")
+    ))
 }
 
 /// What a scene's text was read as, a line each.

@@ -143,7 +143,7 @@ pub(super) fn codes(table: &Table) -> [Array<'_>; 3] {
     ]
 }
 
-/// `volume` to `residual`, and `pressure` where the table has it.
+/// `volume` to `residual`, and `pressure` and `distance` where the table has them.
 pub(super) fn measures(table: &Table) -> Vec<Array<'_>> {
     let mut all = vec![
         Array::float("volume", |i| table.volume[i]),
@@ -156,6 +156,9 @@ pub(super) fn measures(table: &Table) -> Vec<Array<'_>> {
     ];
     if !table.pressure.is_empty() {
         all.push(Array::float("pressure", |i| table.pressure[i]));
+    }
+    if !table.distance.is_empty() {
+        all.push(Array::float("distance", |i| table.distance[i]));
     }
     all
 }

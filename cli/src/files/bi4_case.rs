@@ -141,6 +141,10 @@ impl<'t> Case<'t> {
 
     /// From a particle on the surface of a body to the true surface; 0 where nobody says, as inside.
     pub(super) fn to_surface(&self, i: usize) -> [f64; 3] {
+        if self.table.is_wall(i) {
+            let depth = -self.table.distance[i];
+            return self.table.normal(i).map(|along| depth * along);
+        }
         let inset = (self.table.body[i])
             .and_then(|body| self.table.shared.inset.get(usize::from(body)))
             .copied()

@@ -18,11 +18,13 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     super::validate::check(table)?;
     let space = table.dimension == 3;
     let has_pressure = !table.pressure.is_empty();
-    let more = if has_pressure { ",pressure" } else { "" };
+    let has_distance = !table.distance.is_empty();
+    let pressure = if has_pressure { ",pressure" } else { "" };
+    let distance = if has_distance { ",distance" } else { "" };
     let (z, nz) = if space { (",z", ",nz") } else { ("", "") };
     writeln!(
         to,
-        "id,x,y{z},kind,side,body,volume,mass,density,h,spacing,gamma,residual,nx,ny{nz}{more}"
+        "id,x,y{z},kind,side,body,volume,mass,density,h,spacing,gamma,residual,nx,ny{nz}{pressure}{distance}"
     )?;
     let names: Vec<String> = table.bodies.iter().map(|name| quoted(name)).collect();
     for i in 0..table.len() {
@@ -53,6 +55,9 @@ pub fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
         }
         if has_pressure {
             write!(to, ",{}", Short(table.pressure[i]))?;
+        }
+        if has_distance {
+            write!(to, ",{}", Short(table.distance[i]))?;
         }
         writeln!(to)?;
     }

@@ -103,6 +103,9 @@ impl<'t> Found<'t> {
         if !table.pressure.is_empty() {
             all.push(("pressure", Box::new(|i| table.pressure[i])));
         }
+        if !table.distance.is_empty() {
+            all.push(("distance", Box::new(|i| table.distance[i])));
+        }
         if format == ParticleFormat::Bi4 {
             all.extend(derived(table));
         }

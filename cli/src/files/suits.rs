@@ -56,6 +56,14 @@ impl ParticleFormat {
                 body.name
             ));
         }
+        let walled =
+            (scene.body.iter()).find(|body| body.role == Role::Container && body.layers.is_some());
+        if let Some(body) = walled.filter(|_| self == Self::Bi4 && scene.fluid.fill) {
+            return refuse(format!(
+                "DualSPHysics has one mass for the fluid, and its first particles beside the wall of \"{}\" have one of their own; leave layers out, or choose another format",
+                body.name
+            ));
+        }
         let mut bodies = scene.body.iter().map(|body| body.name.as_str());
         let is_reload = matches!(self, Self::Reload | Self::ReloadBody);
         if is_reload && bodies.any(|name| name == FLUID) {

@@ -180,6 +180,7 @@ pub(super) fn one_particle(dimension: usize) -> Table {
         residual: vec![0.0],
         normals: [(u32::MAX, flat([0.6, -0.0, 0.8]))].into(),
         pressure: vec![-1e-9],
+        distance: vec![-5e-4],
         density: vec![1e3],
         spacing: vec![1e-3],
         smoothing_length: vec![1.2e-3],
@@ -231,6 +232,8 @@ fn what_no_file_may_hold() {
     };
     let with = |change: fn(&mut Table)| {
         let mut table = one_particle(3);
+        // Of a wall in layers Γ may be NaN.
+        table.distance.clear();
         change(&mut table);
         table
     };
@@ -239,6 +242,7 @@ fn what_no_file_may_hold() {
         "gamma of particle 4294967295 is NaN",
     );
     refuse(&with(|t| t.mass[0] = f64::INFINITY), "mass");
+    refuse(&with(|t| t.distance = vec![f64::INFINITY]), "distance");
     refuse(&with(|t| t.position[0][2] = f64::NAN), "z of particle");
     let spoil = |t: &mut Table| {
         t.normals.insert(t.id[0], [0.0, f64::NAN, 0.0]);

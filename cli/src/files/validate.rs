@@ -16,10 +16,10 @@ pub(super) fn check(table: &Table) -> io::Result<()> {
     }
     for i in 0..table.len() {
         let [[x, y, z], [nx, ny, nz]] = [table.position[i], table.normal(i)];
-        // What is frozen is not judged.
-        let is_frozen = table.kind[i] == Kind::Frozen;
+        // What is frozen, and a wall in layers, is not judged.
+        let is_unjudged = table.kind[i] == Kind::Frozen || table.is_wall(i);
         let judged = |number: f64| {
-            if is_frozen && number.is_nan() {
+            if is_unjudged && number.is_nan() {
                 0.0
             } else {
                 number
@@ -37,6 +37,7 @@ pub(super) fn check(table: &Table) -> io::Result<()> {
             ("ny", ny),
             ("nz", nz),
             ("pressure", table.pressure.get(i).copied().unwrap_or(0.0)),
+            ("distance", distance(table, i)),
             ("density", table.density_of(i)),
             ("h", table.smoothing_length_of(i)),
             ("spacing", table.spacing_of(i)),
@@ -49,6 +50,12 @@ pub(super) fn check(table: &Table) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// The distance of particle `i` of a wall, 0 of others.
+fn distance(table: &Table, i: usize) -> f64 {
+    let own = table.distance.get(i).copied();
+    own.filter(|distance| !distance.is_nan()).unwrap_or(0.0)
 }
 
 /// Refuses numbers that 32 bits are too few for; `row` has a particle's, by name.

@@ -52,6 +52,7 @@ impl Scene {
             }
         }
         self.check_dimensions()?;
+        self.check_layers()?;
         self.check_refinement()?;
         positive(
             &[Key::Name("fluid"), Key::Name("density")],

@@ -3,6 +3,7 @@
 mod accuracy;
 mod check;
 mod check_body;
+mod check_layers;
 mod document;
 mod explain;
 mod fault;
@@ -176,6 +177,9 @@ pub struct BodySpec {
     /// With `refinement`, how many particles there are per radius of curvature, down to its `finest`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curvature: Option<f64>,
+    /// Wall particles in so many layers: of a solid instead of filling it, of a container outside of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layers: Option<usize>,
 }
 
 /// A rotation in space.
@@ -450,6 +454,7 @@ impl Scene {
                 thin: Thin::default(),
                 spacing: None,
                 curvature: None,
+                layers: None,
             }],
             name,
             refinement: None,

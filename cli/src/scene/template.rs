@@ -44,6 +44,8 @@ shape = { circle = { center = [0.0, 0.0], radius = 1.0 } }
 # curvature = 12                 # with [refinement]: particles per radius of curvature, down to `finest` (no default)
 # thin = "mass"                  # parts thinner than a spacing: as many particles as their mass asks for, or one per
                                  # spacing^(D-1) whatever they weigh ("watertight")
+# layers = 3                     # wall (dummy) particles in so many layers, with normals and distances: of a solid
+                                 # instead of filling it, of a container outside of it (no default)
 
 [fluid]                          # what is between the bodies
 # density = 1.0
