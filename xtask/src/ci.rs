@@ -17,7 +17,7 @@ use crate::{
 const RANDOM_SCENES: usize = 50;
 
 /// Runs of random scenes that are killed; `cargo xtask kills` does 200.
-const KILLS: usize = 20;
+const KILLS: usize = 10;
 
 /// Runs under faults, twice each; `cargo xtask faults` does 500.
 const FAULTS: usize = 48;

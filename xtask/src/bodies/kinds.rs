@@ -26,19 +26,19 @@ pub(super) const KINDS: [DrawnKind; 6] = [
     DrawnKind {
         name: "walls",
         count: 200,
-        quick: 10,
+        quick: 6,
         draw: boxes::wall,
     },
     DrawnKind {
         name: "periodic cells",
         count: 300,
-        quick: 10,
+        quick: 6,
         draw: boxes::cell,
     },
     DrawnKind {
         name: "thin",
         count: 200,
-        quick: 10,
+        quick: 6,
         draw: thin::draw,
     },
     DrawnKind {
@@ -56,7 +56,7 @@ pub(super) const KINDS: [DrawnKind; 6] = [
     DrawnKind {
         name: "giants",
         count: 200,
-        quick: 10,
+        quick: 6,
         draw: giants::draw,
     },
 ];

@@ -28,7 +28,7 @@ use row::{CLOSEST, LINF, Row};
 const SPACINGS: usize = 40;
 
 /// Of these, in the short form.
-const QUICK_SPACINGS: usize = 3;
+const QUICK_SPACINGS: usize = 2;
 
 /// From the bodies to the sides of the box, in ∆s.
 const MARGIN: f64 = 6.0;

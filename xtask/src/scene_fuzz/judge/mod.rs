@@ -90,10 +90,12 @@ impl Scene<'_> {
         spacings.fold(self.case.spacing, f64::max)
     }
 
-    /// Whether particles differ in size.
+    /// Whether particles differ in size: those of the rows, or others that were packed beside them, as the report says. What is
+    /// left of a small container may be its wall alone, all of the finest.
     fn is_graded(&self) -> bool {
         let first = self.rows.first().and_then(|row| row.spacing);
-        self.rows.iter().any(|row| row.spacing != first)
+        let ratio = self.figure(&["resolution", "ratio"]);
+        ratio.is_some_and(|ratio| ratio > 1.0) || self.rows.iter().any(|row| row.spacing != first)
     }
 
     fn volume(&self) -> f64 {

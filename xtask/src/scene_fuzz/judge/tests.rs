@@ -263,6 +263,24 @@ fn report(made: &mut Made) -> &mut serde_json::Value {
     made.trial.report.as_mut().unwrap()
 }
 
+/// What is left of a packing of many sizes may be of one: its report is in the particles' own all the same.
+#[test]
+fn a_report_is_in_own_sizes_where_particles_differ() {
+    let mut made = made();
+    for row in made.rows() {
+        row.volume = 0.81;
+    }
+    made.measure();
+    let is_found = |made: &Made| {
+        let mut classes = made.classes().into_iter();
+        classes.any(|class| class == "closest pair in the report")
+    };
+    report(&mut made)["closest_pair_over_spacing"] = json!(1.0 / 0.9);
+    assert!(is_found(&made));
+    report(&mut made)["resolution"] = json!({ "ratio": 2.0 });
+    assert!(!is_found(&made));
+}
+
 #[test]
 fn wrong_columns_and_figures_are_found() {
     lie(|made| made.at(3, 0).residual += 1e-6, "residual column");
