@@ -89,8 +89,8 @@ pub(super) fn section(bench: &Bench, is_quick: bool) -> Result<Section, String> 
                     "spacing = 1.0\n[domain]\nmargin = 8.0\n[[body]]\nname = \"{name}\"\n{shape}\n[packing]\nkernel = \"{kernel}\"\nh_over_spacing = {h:?}\n"
                 ))?;
                 let own = scene.packing.settling_in(dimension).levelling;
-                for levelling in [Some(own), other_levelling(dimension, kernel, h)] {
-                    let Some(levelling) = levelling else { continue };
+                let other = other_levelling(dimension, kernel, h).filter(|other| *other != own);
+                for levelling in [Some(own), other].into_iter().flatten() {
                     if levelling != own {
                         scene.packing.levelling = Some(levelling);
                     }
