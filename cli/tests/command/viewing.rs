@@ -343,7 +343,7 @@ fn what_cannot_be_shown_is_refused_with_the_cure() {
         &["view", "far.csv"],
         &["far.csv", "not a finite number", "correct or remove"],
     );
-    desk.refuse(&["view", "good.stl"], &["good.stl"]);
+    desk.refuse(&["view", "part.stl"], &["part.stl"]);
     desk.refuse(
         &["view", "good.csv"],
         &["good.html", "the file exists", "--force"],
