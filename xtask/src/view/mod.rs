@@ -56,13 +56,28 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     };
     fs::create_dir_all(&desk.folder)
         .map_err(|error| format!("{}: {error}", desk.folder.display()))?;
-    plane(&desk)?;
-    space(&desk)?;
+    looked_at(|| plane(&desk))?;
+    looked_at(|| space(&desk))?;
     if !settings.quick {
         body(&desk)?;
         million(&desk)?;
     }
     Ok(())
+}
+
+/// Pictures of a page that are taken before what is seen is wrong: in one of some fifteen the browser has not shown the last frame.
+const PICTURES: usize = 3;
+
+/// Looks at a page until what is seen is right.
+fn looked_at(look: impl Fn() -> Result<(), String>) -> Result<(), String> {
+    let mut last = Ok(());
+    for _ in 0..PICTURES {
+        last = look();
+        if last.is_ok() {
+            break;
+        }
+    }
+    last
 }
 
 /// A browser, and where pages and pictures go.
