@@ -90,12 +90,12 @@ impl Scene<'_> {
         spacings.fold(self.case.spacing, f64::max)
     }
 
-    /// Whether particles differ in size: those of the rows, or others that were packed beside them, as the report says. What is
-    /// left of a small container may be its wall alone, all of the finest.
+    /// Whether particles may differ in size: those of the rows do, or the report tells of many sizes. All that a small container
+    /// holds may be its wall, of the finest, and a box without surfaces is of the coarsest all over.
     fn is_graded(&self) -> bool {
         let first = self.rows.first().and_then(|row| row.spacing);
-        let ratio = self.figure(&["resolution", "ratio"]);
-        ratio.is_some_and(|ratio| ratio > 1.0) || self.rows.iter().any(|row| row.spacing != first)
+        let is_told = self.figure(&["resolution", "ratio"]).is_some();
+        is_told || self.rows.iter().any(|row| row.spacing != first)
     }
 
     fn volume(&self) -> f64 {

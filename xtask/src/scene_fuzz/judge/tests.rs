@@ -265,7 +265,7 @@ fn report(made: &mut Made) -> &mut serde_json::Value {
 
 /// What is left of a packing of many sizes may be of one: its report is in the particles' own all the same.
 #[test]
-fn a_report_is_in_own_sizes_where_particles_differ() {
+fn a_report_of_many_sizes_is_in_the_particles_own() {
     let mut made = made();
     for row in made.rows() {
         row.volume = 0.81;
@@ -277,8 +277,10 @@ fn a_report_is_in_own_sizes_where_particles_differ() {
     };
     report(&mut made)["closest_pair_over_spacing"] = json!(1.0 / 0.9);
     assert!(is_found(&made));
-    report(&mut made)["resolution"] = json!({ "ratio": 2.0 });
-    assert!(!is_found(&made));
+    for ratio in [1.0, 2.0] {
+        report(&mut made)["resolution"] = json!({ "ratio": ratio });
+        assert!(!is_found(&made));
+    }
 }
 
 #[test]
