@@ -29,6 +29,8 @@ pub struct Cloud {
     pub id: Option<Vec<f64>>,
     /// Γ as the file says, where it does.
     pub gamma: Option<Vec<f64>>,
+    /// Distance of wall particles in layers from the true surface, where the file has it; NaN of all others.
+    pub distance: Option<Vec<f64>>,
     /// The smoothing length, where the file has the same for all.
     pub smoothing_length: Option<f64>,
     /// The spacing and the smoothing length of each, where the file says that they differ; one of them may be missing.
@@ -146,6 +148,7 @@ impl Cloud {
             kind,
             id: column("id").cloned(),
             gamma: column("gamma").cloned(),
+            distance: column("distance").cloned(),
             smoothing_length: column("h").and_then(|h| common(h)),
             normal,
         })
@@ -159,7 +162,7 @@ impl Cloud {
             .count()
     }
 
-    /// Γ and h |∇Γ| of all but the frozen particles, and those whose Γ is NaN in the file; where none is frozen, of those farther than a support radius from
+    /// Γ and h |∇Γ| of all but the frozen particles, and walls in layers; where none is frozen, of those farther than a support radius from
     /// the edge of the box around them all.
     ///
     /// # Errors
@@ -191,10 +194,10 @@ impl Cloud {
         self.check_spacing(&bounds, support, spacing)?;
         let has_frozen = self.frozen_count() > 0;
         let inner = bounds.grown(-support);
-        // Our own files say of walls in layers that they are not judged.
+        // Walls in layers are there for the fluid to have neighbours; they have none on their far side.
         let is_judged = |i: usize| {
-            let own = self.gamma.as_ref().and_then(|gamma| gamma.get(i));
-            self.kind[i] != Kind::Frozen && !own.is_some_and(|gamma| gamma.is_nan())
+            let wall = self.distance.as_ref().map(|distance| distance[i]);
+            self.kind[i] != Kind::Frozen && wall.is_none_or(f64::is_nan)
         };
         let is_measured = |i: usize| is_judged(i) && (has_frozen || inner.contains(positions[i]));
         let measured: Vec<usize> = (0..positions.len()).filter(|&i| is_measured(i)).collect();

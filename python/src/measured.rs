@@ -60,6 +60,7 @@ pub(crate) fn quality(
         kind,
         id: None,
         gamma: None,
+        distance: None,
         smoothing_length: None,
         sizes: None,
         normal: None,

@@ -28,9 +28,9 @@ use column::Stored;
 use size::Size;
 
 /// Columns in the order in which a row is shown; others follow by name.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
     "id", "kind", "side", "body", "volume", "mass", "density", "h", "spacing", "gamma", "residual",
-    "nx", "ny", "nz", "pressure",
+    "nx", "ny", "nz", "distance", "pressure",
 ];
 
 /// What is coloured at first: the first of these that is there and differs from row to row.

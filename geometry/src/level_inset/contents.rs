@@ -148,7 +148,15 @@ fn add_box<const D: usize>(
         total.1 += volume;
         return;
     }
-    for bits in 0..1_usize << D {
+    for part in halves(&cell) {
+        add_box(surface, depth, (part, levels - 1), leaf, total);
+    }
+}
+
+/// The 2^D boxes that are left where a box is halved along every axis.
+pub(crate) fn halves<const D: usize>(cell: &Bounds<D>) -> impl Iterator<Item = Bounds<D>> {
+    let (cell, center) = (*cell, cell.center());
+    (0..1_usize << D).map(move |bits| {
         let mut part = cell;
         for k in 0..D {
             if bits >> k & 1 == 1 {
@@ -157,8 +165,8 @@ fn add_box<const D: usize>(
                 part.max[k] = center[k];
             }
         }
-        add_box(surface, depth, (part, levels - 1), leaf, total);
-    }
+        part
+    })
 }
 
 /// The plane n·x = −f through the unit cube around the origin: its area within, and the part of the cube behind.

@@ -15,7 +15,7 @@ use crate::surface::{Closest, Feature, Features, Surface};
 use crate::thickness::Touching;
 use crate::{CORNER_DEGREES, GeometryError, InsetError, ParameterError};
 use anchors::Anchors;
-pub(crate) use contents::{cut, integrate_within};
+pub(crate) use contents::{cut, halves, integrate_within};
 use planes::{Plane, Planes};
 
 /// Most projections per query; one or two suffice away from creases, five or so at them.

@@ -5,8 +5,7 @@ use sphpack_neighbors::{Bounds, point};
 
 use super::CROWDED;
 use super::crowd::Crowd;
-use super::shells::halves;
-use crate::level_inset::gradient;
+use crate::level_inset::{gradient, halves};
 use crate::surface::Surface;
 
 /// Every place of the layers is within this of one of their points, in ∆s: a square lattice leaves 0.71, a cubic one 0.87, and rounding

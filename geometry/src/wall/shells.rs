@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sphpack_neighbors::Bounds;
 
-use crate::level_inset::{cut, gradient};
+use crate::level_inset::{cut, gradient, halves};
 use crate::surface::Surface;
 
 /// The smallest cells, per ∆s. With 4 in space the shells of a cube of 12.6 ∆s are right to 2 in 10,000.
@@ -94,21 +94,6 @@ impl<const D: usize> Grid<'_, D> {
             sums.shallower[level] += (1.0 - deeper) * volume;
         }
     }
-}
-
-pub(super) fn halves<const D: usize>(cell: &Bounds<D>) -> impl Iterator<Item = Bounds<D>> {
-    let (cell, center) = (*cell, cell.center());
-    (0..1_usize << D).map(move |bits| {
-        let mut part = cell;
-        for k in 0..D {
-            if bits >> k & 1 == 1 {
-                part.min[k] = center[k];
-            } else {
-                part.max[k] = center[k];
-            }
-        }
-        part
-    })
 }
 
 /// Of `layers` layers of `spacing` on the side of `wall` that it calls its inside.

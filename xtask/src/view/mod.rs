@@ -65,7 +65,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     Ok(())
 }
 
-/// Pictures of a page that are taken before what is seen is wrong: in one of some fifteen the browser has not shown the last frame.
+/// Pictures of a page that are taken before what is seen is wrong: at times the browser has not shown the last frame.
 const PICTURES: usize = 3;
 
 /// Looks at a page until what is seen is right.
