@@ -12,7 +12,8 @@ use crate::{
     Standard,
 };
 
-type Pack<'a, const D: usize> = &'a dyn Fn(&mut dyn Observer) -> Result<Packed<D>, PackingError>;
+pub(crate) type Pack<'a, const D: usize> =
+    &'a dyn Fn(&mut dyn Observer) -> Result<Packed<D>, PackingError>;
 
 /// Has a state kept before every step, and holds on to some.
 #[derive(Default)]
@@ -80,7 +81,7 @@ fn assert_same<const D: usize>(a: &Packed<D>, b: &Packed<D>, what: &str) {
 }
 
 /// That states change nothing, that from each of them the same comes, and that a stop loses nothing.
-fn check<const D: usize>(pack: Pack<'_, D>) {
+pub(crate) fn check<const D: usize>(pack: Pack<'_, D>) {
     let plain = pack(&mut Silent).expect("a sound problem");
     let mut recorder = Recorder::default();
     let recorded = pack(&mut recorder).expect("a sound problem");

@@ -22,15 +22,18 @@ const FIRST: f64 = 1e-3;
 /// What it is multiplied by after a full step, and after one that went up.
 const LESS: f64 = 0.3;
 const MORE: f64 = 3.0;
-/// Products of a step, at most, in the plane and in space, where longer steps make single particles worse; and the part of
-/// the first square of the residual at which it is solved.
-const PRODUCTS: [usize; 2] = [40, 20];
+/// The part of the first square of the residual at which a step is solved.
 const SOLVED: f64 = 1e-6;
 /// No particle moves farther in a step, in ∆s.
 const FARTHEST: f64 = 0.04;
 /// Trials of a step, each 0.4 times as long.
 const TRIALS: usize = 6;
 const SHORTER: f64 = 0.4;
+
+/// Pair sums that a step of so many products takes, if it goes down at once.
+pub(super) fn sums(products: usize) -> usize {
+    2 * products + 2
+}
 
 impl<const D: usize> Marquardt<D> {
     pub(super) fn new() -> Self {
@@ -44,8 +47,14 @@ impl<const D: usize> Marquardt<D> {
         }
     }
 
-    /// One step from where the particles are, which must be evaluated: whether F went down, and how many pair sums it took.
-    pub(super) fn step(&mut self, objective: &mut Objective<'_, D>, spacing: f64) -> (bool, usize) {
+    /// One step of at most so many products from where the particles are, which must be evaluated: whether F went down, and how
+    /// many pair sums it took.
+    pub(super) fn step(
+        &mut self,
+        objective: &mut Objective<'_, D>,
+        spacing: f64,
+        products: usize,
+    ) -> (bool, usize) {
         let before = objective.value();
         let held = objective.descent(&mut self.rest);
         let mut sums = 1;
@@ -54,7 +63,7 @@ impl<const D: usize> Marquardt<D> {
         self.direction.clone_from(&self.rest);
         let mut square = dot(&self.rest, &self.rest);
         let first = square;
-        for _ in 0..PRODUCTS[usize::from(D == 3)] {
+        for _ in 0..products {
             if square.is_nan() || square <= SOLVED * first {
                 break;
             }

@@ -257,9 +257,11 @@ pipes with flanges or fins, cones, needles, sharp rings and cups, at 1/25 to 1/5
 ball that cuts them or is cut by them.
 
 Small and narrow parts that would not settle evenly with as many particles as lengths and volumes ask for get counts that were
-tried out (`packing/src/methods/balanced/tried.rs`): with the usual ones 22 of the 40 packings of sixteen squares are even, with those 40. What is
-still not even is coarse, and almost all of it lies in the fluid between sides that are a half-odd number of ∆s apart, and in narrow pockets: what a wall
-is to hold beside a row for every ∆s of its sides does not make a row of its own. Two other cures were tried and do not pay: as many particles on
+tried out (`packing/src/methods/balanced/tried.rs`): with the usual ones 22 of the 40 packings of sixteen squares are even, with those 40. Around
+what an energy still leaves uneven, as in the fluid between sides that are a half-odd number of ∆s apart, a last stage takes steps down the densities and
+close pairs themselves (`packing/src/finish/uneven.rs`): without it 27 of 40 packings of blocks that face each other are even, 23 of the window, 35 of
+the target, 38 of the strips. What is not even after it is coarse: pockets of fluid two to three ∆s wide, whose volume asks for one particle more or
+less than the room between their sides holds, and gaps of some 0.4 ∆s where three bodies meet. Two other cures were tried and do not pay: as many particles on
 the sides as make whole rows is worse, for the sides' rows stay ∆s/2 deep while evenness wants them half a row's width deep;
 corners that slide take mass out of the corners, and are half a cure where the body turns inward.
 

@@ -5,7 +5,8 @@ use crate::forces::{Forces, largest};
 use crate::minimise::Finish;
 use crate::particles::{Kind, Particles};
 use crate::problem::Problem;
-use sphpack_neighbors::point;
+use rayon::prelude::*;
+use sphpack_neighbors::{KdTree, point};
 
 /// Which particles settle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -68,12 +69,7 @@ impl<const D: usize> Part<D> {
         };
         let is_all = count(&|i| distance[i] <= width) >= WORTHWHILE * count(&|_| true);
         if is_all {
-            return Self {
-                particles: particles.clone(),
-                order: (0..particles.len()).collect(),
-                rim: Vec::new(),
-                is_all,
-            };
+            return Self::all(particles);
         }
         // Whoever is seen by what moves or is on the rim must be there, however far off its distance is: it may be too
         // great by the whole error where another part of the surface is nearer than that of the cube's middle, too
@@ -98,6 +94,70 @@ impl<const D: usize> Part<D> {
             order,
             rim,
             is_all,
+        }
+    }
+
+    /// The part within `width` (scene units) of any of some places.
+    pub(super) fn around(
+        problem: &Problem<D>,
+        particles: &Particles<D>,
+        places: &[[f64; D]],
+        width: f64,
+    ) -> Self {
+        let domain = &problem.domain;
+        let wrapped: Vec<[f64; D]> = places.iter().map(|&place| domain.wrap(place)).collect();
+        let Ok(tree) = KdTree::new(&wrapped) else {
+            return Self::all(particles);
+        };
+        let sight = problem.reach();
+        let seen = width + 2.0 * sight;
+        let of_one = |&place: &[f64; D]| {
+            (domain.images(domain.wrap(place), seen))
+                .filter_map(|image| tree.nearest(image))
+                .map(|found| found.distance)
+                .fold(f64::INFINITY, f64::min)
+        };
+        let distance: Vec<f64> = particles
+            .position
+            .par_iter()
+            .with_min_len(1024)
+            .map(of_one)
+            .collect();
+        let order: Vec<usize> = (0..particles.len())
+            .filter(|&i| distance[i] <= seen)
+            .collect();
+        let mut part = particles.selected(&order);
+        let mut rim = Vec::new();
+        for (place, &i) in order.iter().enumerate() {
+            let kind = &mut part.kind[place];
+            if distance[i] <= width || *kind == Kind::Frozen {
+                continue;
+            }
+            if distance[i] <= width + sight {
+                rim.push(place);
+            }
+            // Who is near a surface is told by the particles on it.
+            let stays_on_surface = kind.is_on_surface() && distance[i] <= width + sight;
+            *kind = if stays_on_surface {
+                Kind::Fixed
+            } else {
+                Kind::Frozen
+            };
+        }
+        Self {
+            particles: part,
+            order,
+            rim,
+            is_all: false,
+        }
+    }
+
+    fn all(particles: &Particles<D>) -> Self {
+        Self {
+            particles: particles.clone(),
+            order: (0..particles.len()).collect(),
+            rim: Vec::new(),
+            is_all: true,
         }
     }
 

@@ -1,6 +1,6 @@
 //! What finishes other than the energy's are to come to.
 
-use crate::finish::Goal;
+use crate::finish::{Among, Goal};
 use crate::minimise::{Finish, Settling};
 
 /// Of the finish that makes both small: the largest |Γ − Γ₀| and h|∇Γ| to come to, and the steps that may take; evenness
@@ -14,7 +14,12 @@ const EVENNESS: f64 = 1.0;
 const REST_STEPS: usize = 60;
 const REST_LEVEL: f64 = 1.8e-3;
 
-/// What the last stages are to come to, one after the other; none of an even finish.
+/// Where an even finish is not: the largest |Γ − Γ₀| and the closest pair, in ∆s, to come to, and the steps that may take. Kernel
+/// gradient sums count a little: over 24 such packings their largest is 0.025 in the mean, 0.038 without, and evenness no worse.
+const EVEN: (f64, f64, usize) = (3e-3, 0.83, 48);
+const CALMNESS: f64 = 0.01;
+
+/// What the last stages are to come to, one after the other.
 pub(super) fn of(settling: &Settling) -> Vec<Goal> {
     let Settling {
         finish, balance, ..
@@ -24,11 +29,23 @@ pub(super) fn of(settling: &Settling) -> Vec<Goal> {
         weights: [EVENNESS, 1.0],
         level,
         calm,
+        apart: 0.0,
         steps,
-        rests: false,
+        among: Among::Band,
     };
     match finish {
-        Finish::Even | Finish::Consistent => Vec::new(),
+        Finish::Even => {
+            let (level, apart, steps) = EVEN;
+            vec![Goal {
+                weights: [1.0, CALMNESS],
+                level,
+                calm: f64::INFINITY,
+                apart,
+                steps,
+                among: Among::Uneven,
+            }]
+        }
+        Finish::Consistent => Vec::new(),
         Finish::Both => {
             // What counts less need not be as small.
             let lax = (balance / (1.0 - balance)).clamp(1e-3, 1e3);
@@ -45,7 +62,7 @@ pub(super) fn of(settling: &Settling) -> Vec<Goal> {
                 level: REST_LEVEL,
                 calm: settling.tolerance(),
                 steps: REST_STEPS,
-                rests: true,
+                among: Among::All,
                 ..both
             }]
         }

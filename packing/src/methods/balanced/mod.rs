@@ -24,7 +24,7 @@ use sphpack_neighbors::point;
 
 use crate::depths::Depths;
 use crate::estimate::Work;
-use crate::finish;
+use crate::finish::{self, Among, Goal, Uneven};
 use crate::forces::Forces;
 use crate::methods::info::{CHOOSING, MethodInfo, Moves};
 use crate::minimise::{Energy, Finish, Settling};
@@ -74,6 +74,9 @@ const MOST_WIDENINGS: usize = 8;
 
 /// The number of the round in which the last stage comes.
 const FINISHING: usize = MOST_WIDENINGS + 1;
+
+/// Support radii around what is uneven in which particles move to make it even.
+const UNEVEN_WIDTH: f64 = 1.5;
 
 /// Particles of which a place of rest is looked for, at most, in the plane and in space. 6,400 in the plane take some ten
 /// seconds, most of it for factors; a factor of 17,640 in space took 40.
@@ -152,16 +155,19 @@ impl Balanced {
         if problem.resolution.uniform().is_none() {
             return graded::pack(problem, &self.settling, log);
         }
-        self.pack_counted(problem, log, &|problem, sampled, log| {
+        let goals = goals::of(&self.settling);
+        self.pack_counted(problem, log, &goals, &|problem, sampled, log| {
             tried::counts(self, problem, sampled, log)
         })
     }
 
-    /// Packs a problem of one spacing, with the counts that `choose` knows better than areas and volumes tell.
+    /// Packs a problem of one spacing, with the counts that `choose` knows better than areas and volumes tell, and comes to
+    /// the goals in the end.
     fn pack_counted<const D: usize>(
         &self,
         problem: &Problem<D>,
         log: &mut RunLog<'_>,
+        goals: &[Goal],
         choose: &Choose<'_, D>,
     ) -> Result<Packed<D>, PackingError> {
         let settling = &self.beginning();
@@ -206,15 +212,22 @@ impl Balanced {
             width: self.band.first_width(problem, settling.finish),
             particles: &mut particles,
             forces: &mut forces,
+            is_at_rest: true,
+            uneven: Uneven::default(),
         };
         log.go_on(&mut [&mut begin])?;
-        let (mut round, mut width) = (begin.number, begin.width);
+        let (mut round, mut width, mut uneven) = (begin.number, begin.width, begin.uneven);
+        if !begin.is_at_rest {
+            stop_reason = StopReason::Stagnated;
+        }
         while round <= MOST_WIDENINGS {
             let begin = Round {
                 number: round,
                 width,
                 particles: &mut particles,
                 forces: &mut forces,
+                is_at_rest: true,
+                uneven: Uneven::default(),
             };
             log.set_aside(0, &[&begin]);
             let mut part = Part::of(problem, &particles, width);
@@ -224,6 +237,7 @@ impl Balanced {
             stop_reason = settling.run(&mut energy, log, &stages[round.min(1)..])?;
             forces = energy.into_forces();
             part.write_back(&mut particles);
+            uneven = Uneven::of(problem, &part.particles, &forces);
             let is_settled = stop_reason == StopReason::Converged;
             if part.is_all
                 || !is_settled
@@ -234,8 +248,14 @@ impl Balanced {
             width *= WIDER;
             round += 1;
         }
-        for (number, goal) in goals::of(&self.settling).into_iter().enumerate() {
-            if stop_reason != StopReason::Converged || FINISHING + number < round {
+        for (number, &goal) in goals.iter().enumerate() {
+            let evens_out = goal.among == Among::Uneven;
+            let may_begin = match stop_reason {
+                StopReason::Converged => !(evens_out && uneven.places.is_empty()),
+                StopReason::Stagnated => evens_out && !uneven.places.is_empty(),
+                _ => false,
+            };
+            if !may_begin || FINISHING + number < round {
                 continue;
             }
             let begin = Round {
@@ -243,19 +263,41 @@ impl Balanced {
                 width,
                 particles: &mut particles,
                 forces: &mut forces,
+                is_at_rest: stop_reason == StopReason::Converged,
+                uneven: uneven.clone(),
             };
             log.set_aside(0, &[&begin]);
-            // What a body does to its surroundings falls off so slowly that a band around it has no place of rest.
-            let width = if goal.rests { f64::INFINITY } else { width };
-            let mut part = Part::of(problem, &particles, width);
+            let mut part = match goal.among {
+                Among::Band => Part::of(problem, &particles, width),
+                // What a body does to its surroundings falls off so slowly that a band around it has no place of rest.
+                Among::All => Part::of(problem, &particles, f64::INFINITY),
+                Among::Uneven => {
+                    let around = UNEVEN_WIDTH * problem.support();
+                    Part::around(problem, &particles, &uneven.places, around)
+                }
+            };
+            let mut goal = goal;
+            if evens_out {
+                let so_far = log.progress.evaluation;
+                goal.steps = uneven.affordable(goal.steps, &part.particles, so_far);
+            }
             let set = finish::Set {
                 particles: &mut part.particles,
-                rim: if goal.rests { &[] } else { &part.rim },
+                rim: &part.rim,
                 surfaces: &surfaces,
             };
             let most = settling.max_evaluations;
-            stop_reason = finish::run(problem, set, goal, most, log)?;
-            part.write_back(&mut particles);
+            let (reason, unevenness) = finish::run(problem, set, goal, most, log)?;
+            if !evens_out || unevenness < uneven.worst {
+                part.write_back(&mut particles);
+            }
+            stop_reason = match reason {
+                StopReason::Interrupted => reason,
+                // Even is good enough, whatever force is left; and what was at rest before is.
+                _ if evens_out && unevenness <= 1.0 => StopReason::Converged,
+                _ if evens_out => stop_reason,
+                _ => reason,
+            };
         }
         let mut packed = log
             .end(

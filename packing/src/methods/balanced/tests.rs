@@ -1,5 +1,7 @@
 //! What holds of every balanced packing.
 
+mod uneven;
+
 use std::sync::Arc;
 
 use proptest::prelude::*;

@@ -274,7 +274,7 @@ fn unevenness<const D: usize>(
 ) -> f64 {
     let mut nobody = Silent;
     let mut log = RunLog::new(&mut nobody);
-    match method.pack_counted(alone, &mut log, &|_, _, _| vec![counts]) {
+    match method.pack_counted(alone, &mut log, &[], &|_, _, _| vec![counts]) {
         Ok(packed) if packed.stop_reason == StopReason::Converged => {
             let quality = packed.quality();
             (quality.density.linf / LINF).max(APART / quality.closest_pair_over_spacing)
