@@ -6,8 +6,8 @@ use super::panel::{Axis, Panel};
 use super::scenes::{OFF, alone, arc, circle, loops, rectangle, scene, turned};
 
 const RADII: &[f64] = &[
-    0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.7, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0, 14.0, 20.0,
-    30.0, 50.0,
+    0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.7, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0,
+    14.0, 20.0, 30.0, 50.0,
 ];
 
 pub(super) const PLANE: Panel = Panel {

@@ -52,7 +52,7 @@ pub(super) const MAPS: [Map; 12] = [
         title: "Round walls",
         about: "How small the radius of a wall may be, seen from inside and from outside.",
         panels: &[curvature::PLANE, curvature::SPACE],
-        pins: &[pin(0, [0.7, 1.0], Degraded), pin(0, [0.8, 1.0], Passes)],
+        pins: &[pin(0, [0.3, 0.0], Degraded), pin(0, [0.7, 1.0], Passes)],
     },
     Map {
         name: "resolution",
@@ -66,7 +66,7 @@ pub(super) const MAPS: [Map; 12] = [
         title: "Sides of the box",
         about: "How near a side of the box a body may come, on it, beyond it, and across a periodic seam.",
         panels: &[wall::PLANE],
-        pins: &[pin(0, [0.25, 0.0], Degraded), pin(0, [0.5, 0.0], Passes)],
+        pins: &[pin(0, [0.1, 0.0], Degraded), pin(0, [0.5, 0.0], Passes)],
     },
     Map {
         name: "dirt",
