@@ -24,7 +24,7 @@ pub(super) const MAPS: [Map; 12] = [
         title: "Edges and tips in space",
         about: "How sharp an edge and the tip of a cone may be.",
         panels: &[corner::WEDGE, corner::CONE],
-        pins: &[pin(0, [90.0, 3.0], Degraded), pin(0, [90.0, 5.0], Passes)],
+        pins: &[pin(1, [5.0, 3.0], Degraded), pin(0, [90.0, 3.0], Passes)],
     },
     Map {
         name: "thin",
@@ -38,7 +38,7 @@ pub(super) const MAPS: [Map; 12] = [
         title: "Gaps",
         about: "How near two bodies, two shells or the sides of a slit may come.",
         panels: &[gap::PLANE],
-        pins: &[pin(0, [0.3, 0.0], Degraded), pin(0, [0.6, 0.0], Passes)],
+        pins: &[pin(0, [0.2, 4.0], Said), pin(0, [0.3, 0.0], Passes)],
     },
     Map {
         name: "parts",
@@ -52,7 +52,7 @@ pub(super) const MAPS: [Map; 12] = [
         title: "Round walls",
         about: "How small the radius of a wall may be, seen from inside and from outside.",
         panels: &[curvature::PLANE, curvature::SPACE],
-        pins: &[pin(0, [0.3, 0.0], Degraded), pin(0, [0.7, 1.0], Passes)],
+        pins: &[pin(0, [0.3, 0.0], Refused), pin(0, [0.7, 1.0], Passes)],
     },
     Map {
         name: "resolution",
@@ -93,7 +93,7 @@ pub(super) const MAPS: [Map; 12] = [
         title: "Kernels",
         about: "Which kernels pack at which smoothing length.",
         panels: &[kernels::SQUARE, kernels::BALL],
-        pins: &[pin(0, [1.0, 2.0], Degraded), pin(0, [1.1, 2.0], Passes)],
+        pins: &[pin(0, [0.8, 2.0], Degraded), pin(0, [1.0, 2.0], Passes)],
     },
     Map {
         name: "units",
