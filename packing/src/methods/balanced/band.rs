@@ -76,25 +76,7 @@ impl<const D: usize> Part<D> {
         // small only by what the way across the gradient adds.
         let error = Depths::error::<D>(problem.spacing());
         let seen = width + 2.0 * sight + error + (0.5 * error).powi(2) / (2.0 * width);
-        let order: Vec<usize> = (0..particles.len())
-            .filter(|&i| distance[i] <= seen)
-            .collect();
-        let mut part = particles.selected(&order);
-        let mut rim = Vec::new();
-        for (place, &i) in order.iter().enumerate() {
-            if distance[i] > width && part.kind[place] == Kind::Free {
-                part.kind[place] = Kind::Frozen;
-                if distance[i] <= width + sight {
-                    rim.push(place);
-                }
-            }
-        }
-        Self {
-            particles: part,
-            order,
-            rim,
-            is_all,
-        }
+        Self::cut(particles, &distance, (width, sight, seen))
     }
 
     /// The part within `width` (scene units) of any of some places.
@@ -123,6 +105,15 @@ impl<const D: usize> Part<D> {
             .with_min_len(1024)
             .map(of_one)
             .collect();
+        Self::cut(particles, &distance, (width, sight, seen))
+    }
+
+    /// What is nearer than `width` moves, what is within `sight` of that is its rim, what is not farther than `seen` is there.
+    fn cut(
+        particles: &Particles<D>,
+        distance: &[f64],
+        (width, sight, seen): (f64, f64, f64),
+    ) -> Self {
         let order: Vec<usize> = (0..particles.len())
             .filter(|&i| distance[i] <= seen)
             .collect();
