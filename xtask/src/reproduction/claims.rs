@@ -172,7 +172,7 @@ pub(crate) const FIGURES: [Figure; 37] = [
 ];
 
 /// Rows that are known not to hold, by `Row::id`, and why.
-pub(crate) const KNOWN_MISSES: [(&str, &str); 17] = [
+pub(crate) const KNOWN_MISSES: [(&str, &str); 18] = [
     (
         "000 fig14b: hcp lattice, ND, agitator turning for half a revolution, after 25: farthest from a site at the end / ∆s",
         STIRRED,
@@ -234,6 +234,10 @@ pub(crate) const KNOWN_MISSES: [(&str, &str); 17] = [
         LAYERS,
     ),
     (
+        "001 fig13: cylinder, ∆s = 0.05, h/∆s = 1.3125, balanced consistent: L2 of the derivative off the sites / lattice's",
+        SOFT,
+    ),
+    (
         "001 fig13: cylinder, ∆s = 0.02, h/∆s = 1.5, balanced consistent: L2 of the derivative off the sites / lattice's",
         RESTLESS,
     ),
@@ -254,3 +258,5 @@ const LAYERS: &str = "our offset layers are sampled evenly, and interpolate abou
                       in which they collide, is left out as in the paper; the paper shows curves and no number";
 const RESTLESS: &str =
     "within the bar, but no lattice rests at this h/∆s, so the packing ends before its tolerance";
+const SOFT: &str = "within the bar, but between h/∆s = 1.3 and 1.5 the square lattice loses its stability (docs/lattices.md), and the packing ends before \
+                    its tolerance";

@@ -144,7 +144,7 @@ const PICTURES: usize = 3;
 const HEAD: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Packing, published and ours</title>\n<style>\
 body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}\
 table{border-collapse:collapse;margin:.7em 0}th,td{padding:.2em .7em;border-bottom:1px solid #ddd;text-align:left;font-size:14px}\
-td.n{text-align:right;font-variant-numeric:tabular-nums}.holds{color:#00694c}.miss{color:#a34700}.changed{color:#fff;background:#b00020}\
+td.n{text-align:right;font-variant-numeric:tabular-nums}td.v{white-space:nowrap}.holds{color:#00694c}.miss{color:#a34700}.changed{color:#fff;background:#b00020}\
 .pictures{display:flex;flex-wrap:wrap;gap:1em}figure{margin:0;width:540px;max-width:100%}figure:has(:checked){width:100%}figure img{width:100%;cursor:zoom-in}figcaption{font-size:13px;color:#555}\
 </style></head><body>\n";
 
@@ -206,7 +206,7 @@ fn section<'a>(
         );
         let _ = writeln!(
             out,
-            "<tr><td>{packing}{taken}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{class}\">{}</td><td class=\"n\">{:.1}</td></tr>",
+            "<tr><td>{packing}{taken}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n v\">{}</td><td class=\"{class}\">{}</td><td class=\"n\">{:.1}</td></tr>",
             row.measure.name(),
             published(row),
             result.ours.map_or_else(|| "–".to_owned(), self::figure),
