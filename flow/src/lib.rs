@@ -3,6 +3,7 @@
 #![doc = include_str!("../README.md")]
 
 mod edac;
+mod eulerian;
 mod fringe;
 mod medium;
 mod neighborhood;
@@ -14,6 +15,7 @@ mod unstable;
 mod walls;
 
 pub use edac::{Edac, EdacRate, EdacSettings};
+pub use eulerian::{Eulerian, EulerianSettings};
 pub use fringe::Fringe;
 pub use medium::{COURANT, Medium};
 pub use particles::Particles;

@@ -25,6 +25,15 @@ pub(crate) struct Neighborhood<const D: usize> {
 
 impl<const D: usize> Neighborhood<D> {
     pub(crate) fn new(domain: &Domain<D>, smoothing_length: f64) -> Self {
+        Self::with_skin(domain, smoothing_length, SKIN)
+    }
+
+    /// Of particles that stay where they are.
+    pub(crate) fn fixed(domain: &Domain<D>, smoothing_length: f64) -> Self {
+        Self::with_skin(domain, smoothing_length, 0.0)
+    }
+
+    fn with_skin(domain: &Domain<D>, smoothing_length: f64, skin: f64) -> Self {
         const { assert!(D == 2 || D == 3, "particles are in the plane or in space") };
         let (support, shells) = if D == 2 {
             let kernel = Quintic::<2>::new(smoothing_length);
@@ -35,7 +44,7 @@ impl<const D: usize> Neighborhood<D> {
         };
         Self {
             list: CellList::new(domain, support)
-                .with_skin(SKIN * smoothing_length)
+                .with_skin(skin * smoothing_length)
                 .with_shells(shells),
             smoothing_length,
             gathered: Gathered::default(),

@@ -10,7 +10,8 @@ use crate::scene_fuzz::{self, faults, files, kills, maps};
 use crate::selection::Selection;
 use crate::workspace::root;
 use crate::{
-    balanced, bodies, front, guide, python, reproduction, stability, steady, tidy, variable, view,
+    balanced, bodies, flow, front, guide, python, reproduction, stability, steady, tidy, variable,
+    view,
 };
 
 /// Random scenes, the same ones each time; `cargo xtask fuzz --scenes 5000` is the long form.
@@ -28,7 +29,7 @@ const SCENE_FILES: usize = 1000;
 /// A check and its name.
 type Check = (&'static str, fn() -> Result<(), String>);
 
-const CHECKS: [Check; 20] = [
+const CHECKS: [Check; 21] = [
     ("house rules", || tidy::run(&root())),
     ("format", || cargo(&["fmt", "--all", "--check"], &[])),
     ("clippy", clippy),
@@ -54,6 +55,7 @@ const CHECKS: [Check; 20] = [
         steady::run(&steady::Settings::quick())
     }),
     ("balanced", || balanced::run(&quick())),
+    ("flow", || flow::run(&flow::Settings::quick())),
     ("chart", || front::run(&front::Settings::quick())),
     ("variable", || variable::run(&quick())),
     ("bodies", || bodies::run(&bodies::Settings::quick())),

@@ -280,8 +280,8 @@ pub(crate) const TASKS: [Task; 27] = [
         name: "flow",
         known: flow::Settings::KNOWN,
         about: &[
-            "flows from packings: vortices, a drop, a tank, each against its bars, and what the packing changes; one case",
-            "or all; runs are kept; --quick has the small ones, --write also writes docs/flow.md",
+            "flows from packings: vortices, a shaft, a cylinder, an airfoil, a drop, a tank, each against its bars, and what the packing changes; one",
+            "case or all; runs are kept; --quick has the small ones, --write also writes docs/flow.md",
         ],
         read: |given| {
             let settings = flow::Settings::of(given)?;

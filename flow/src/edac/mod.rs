@@ -164,6 +164,11 @@ impl<const D: usize> Edac<D> {
         &self.volume
     }
 
+    /// The velocities that viscosity sees in the walls, likewise, wall by wall.
+    pub fn dummy_velocity(&self) -> &[[f64; D]] {
+        &self.walls.dummy_velocity
+    }
+
     /// Goes on by `steps` steps of ∆t, with one evaluation each: half a step with the last rates, an evaluation, and a full step
     /// from the old state with the new rates.
     ///

@@ -109,6 +109,11 @@ impl<const D: usize> Standard<D> {
         &self.particles
     }
 
+    /// The walls' positions, velocities and accelerations may be changed between steps, nothing else.
+    pub fn particles_mut(&mut self) -> &mut Particles<D> {
+        &mut self.particles
+    }
+
     /// The time.
     pub fn time(&self) -> f64 {
         self.time

@@ -57,7 +57,7 @@ fn scene<const D: usize>(wide: usize) -> (Domain<D>, Particles<D>) {
 }
 
 /// Sums over all pairs, a particle with itself too: `add` gets both numbers, r_ij, W, and ∇W.
-fn pairs<K: Kernel<D>, const D: usize>(
+pub(super) fn pairs<K: Kernel<D>, const D: usize>(
     w: K,
     domain: &Domain<D>,
     of: &Particles<D>,

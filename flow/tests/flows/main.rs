@@ -3,6 +3,9 @@
 mod all_pairs;
 mod channel;
 mod drop;
+mod fixed_particles;
 mod invariants;
+mod plate;
 mod rest;
+mod sound;
 mod taylor_green;

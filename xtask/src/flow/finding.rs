@@ -105,7 +105,11 @@ impl Change {
             show(self.clipped),
             show(self.packed),
             self.by,
-            number(ratio)
+            if ratio.is_finite() {
+                number(ratio)
+            } else {
+                "–".to_owned()
+            }
         )
     }
 }

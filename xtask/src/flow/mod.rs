@@ -1,22 +1,28 @@
 //! Flows from packings: the schemes against what is known, and what a packing changes.
 
+mod airfoil;
 mod couette;
+mod cylinder;
 mod drop;
 mod finding;
+mod hull;
 mod page;
 mod progress;
 mod run;
 mod speed;
 mod start;
+mod stream;
+mod surface;
 mod tank;
 mod vortices;
+mod wing;
 
 use crate::arguments::Arguments;
 use finding::Findings;
 use run::Runs;
 
 /// The cases, as they are asked for.
-const CASES: &str = "taylor-green|couette|drop|tank|speed";
+const CASES: &str = "taylor-green|couette|cylinder|airfoil|wing|drop|tank|hull|speed";
 
 /// What to run.
 #[derive(Debug)]
@@ -29,6 +35,15 @@ pub(crate) struct Settings {
 impl Settings {
     /// The arguments that say it.
     pub(crate) const KNOWN: &[&str] = &[CASES, "--quick", "--write"];
+
+    /// The small forms of all cases.
+    pub(crate) fn quick() -> Self {
+        Self {
+            quick: true,
+            write: false,
+            case: None,
+        }
+    }
 
     pub(crate) fn of(arguments: &Arguments) -> Result<Self, String> {
         let settings = Self {
@@ -50,14 +65,23 @@ pub(crate) fn run(settings: &Settings) -> Result<(), String> {
     let mut all = Vec::new();
     let mut missed = Vec::new();
     for case in CASES.split('|') {
-        if settings.case.as_ref().is_some_and(|asked| asked != case) {
+        // Seconds are no matter of a quick look.
+        let is_asked = match &settings.case {
+            Some(asked) => asked == case,
+            None => !settings.quick || case != "speed",
+        };
+        if !is_asked {
             continue;
         }
         let found = match case {
             "taylor-green" => vortices::find(&runs, settings.quick)?,
             "couette" => couette::find(&runs, settings.quick)?,
+            "cylinder" => cylinder::find(&runs, settings.quick)?,
+            "airfoil" => airfoil::find(&runs, settings.quick)?,
+            "wing" => wing::find(&runs, settings.quick)?,
             "drop" => drop::find(&runs, settings.quick)?,
             "tank" => tank::find(&runs, settings.quick)?,
+            "hull" => hull::find(&runs, settings.quick)?,
             // Seconds are this machine's, and are not kept.
             _ => speed::find()?,
         };

@@ -9,14 +9,20 @@ use crate::kept::Kept;
 use crate::workspace::root;
 
 /// The sources that a run depends on, beside those that pack.
-const OWN: [&str; 7] = [
+const OWN: [&str; 13] = [
     "flow/src",
     "xtask/src/flow/run.rs",
     "xtask/src/flow/start.rs",
     "xtask/src/flow/vortices.rs",
     "xtask/src/flow/couette.rs",
+    "xtask/src/flow/stream.rs",
+    "xtask/src/flow/surface.rs",
+    "xtask/src/flow/cylinder.rs",
+    "xtask/src/flow/airfoil.rs",
+    "xtask/src/flow/wing.rs",
     "xtask/src/flow/drop.rs",
     "xtask/src/flow/tank.rs",
+    "xtask/src/flow/hull.rs",
 ];
 
 /// Numbers and curves by their names.

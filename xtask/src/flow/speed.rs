@@ -2,7 +2,10 @@
 
 use std::fs;
 
-use sphpack_flow::{COURANT, Edac, EdacSettings, Medium, Particles, Standard, StandardSettings};
+use sphpack_flow::{
+    COURANT, Edac, EdacSettings, Eulerian, EulerianSettings, Medium, Particles, Standard,
+    StandardSettings,
+};
 use sphpack_neighbors::Domain;
 use sphpack_neighbors::random::SplitMix64;
 
@@ -86,5 +89,10 @@ pub(super) fn find() -> Result<Findings, String> {
         flow.steps(),
         flow.list_builds()
     );
+    let settings = EulerianSettings::new(medium, 0.01);
+    let step = medium.time_step(0.25, 1.0, 0.01);
+    let mut flow = Eulerian::new(&domain, particles(&medium), Vec::new(), settings);
+    let eulerian = rate(|steps| flow.run(steps, step).map_err(|error| error.to_string()))?;
+    row("Eulerian, plane", "–", 4.0, eulerian);
     Ok(found)
 }

@@ -16,6 +16,8 @@ pub(super) enum Start {
     Balanced,
     Ppa,
     Hybrid,
+    Complex,
+    Relaxation,
 }
 
 impl Start {
@@ -25,6 +27,8 @@ impl Start {
             Self::Balanced => "balanced",
             Self::Ppa => "ppa",
             Self::Hybrid => "hybrid",
+            Self::Complex => "complex",
+            Self::Relaxation => "relaxation",
         }
     }
 
@@ -34,6 +38,8 @@ impl Start {
             Self::Balanced => Method::Balanced,
             Self::Ppa => Method::Ppa,
             Self::Hybrid => Method::Hybrid,
+            Self::Complex => Method::Complex,
+            Self::Relaxation => Method::Relaxation,
         }
     }
 }
@@ -43,8 +49,21 @@ impl Start {
 pub(super) struct Packed {
     /// Of every body, by its number in the scene.
     pub(super) bodies: Vec<Vec<([f64; 2], f64)>>,
+    /// The outward unit normals of the true surfaces next to them.
+    pub(super) normals: Vec<Vec<[f64; 2]>>,
     /// What is in the box beside them.
     pub(super) around: Vec<([f64; 2], f64)>,
+    /// How far that is from the nearest true surface.
+    distance: Vec<f64>,
+}
+
+impl Packed {
+    /// Particles beside the bodies that are next to one: nearer than so much.
+    pub(super) fn near(&self, distance: f64) -> Vec<usize> {
+        (0..self.around.len())
+            .filter(|&i| self.distance[i] < distance)
+            .collect()
+    }
 }
 
 /// Packs the scene of a text, without a method in it, bodies that the fluid fills.
@@ -68,6 +87,7 @@ pub(super) fn packed(text: &str, start: Start) -> Result<Packed, String> {
     let particles = &solution.packed.particles;
     let mut found = Packed {
         bodies: vec![Vec::new(); scene.body.len()],
+        normals: vec![Vec::new(); scene.body.len()],
         ..Packed::default()
     };
     for i in 0..particles.len() {
@@ -80,8 +100,19 @@ pub(super) fn packed(text: &str, start: Start) -> Result<Packed, String> {
             _ => None,
         };
         match body {
-            Some(body) => found.bodies[body].push(of),
-            None => found.around.push(of),
+            Some(body) => {
+                let surface = &solution.problem.bodies[body].surface;
+                found.bodies[body].push(of);
+                found.normals[body].push(surface.closest(of.0).normal);
+            }
+            None => {
+                let bodies = &solution.problem.bodies;
+                let nearest = (bodies.iter())
+                    .map(|body| body.surface.closest(of.0).distance)
+                    .fold(f64::INFINITY, f64::min);
+                found.around.push(of);
+                found.distance.push(nearest);
+            }
         }
     }
     Ok(found)

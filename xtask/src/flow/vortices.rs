@@ -110,9 +110,9 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
         let run = get(count, from, 0.0)?;
         let what = format!("Taylor–Green Re 100, {count}², {name}: error of speeds");
         let row = Row::at_most(what, "exact", bar, run.number("error")).percent();
-        found
-            .rows
-            .push(row.because("from a lattice stagnation lines string particles up"));
+        found.rows.push(
+            row.because("most of it is a lattice, whose particles stagnation lines string up"),
+        );
         Ok(run)
     };
     bar(25, From::Shaken, "shaken lattice", 0.025)?;
