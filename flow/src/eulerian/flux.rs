@@ -96,16 +96,14 @@ impl Riemann {
 
     /// p* of both pressures' sum.
     #[inline(always)]
-    fn pressure<S: Simd>(
+    fn pressure<S: Simd, const D: usize>(
         &self,
         simd: S,
         together: f64x8<S>,
-        closing: f64x8<S>,
-        limiter: f64x8<S>,
+        between: &Between<S, D>,
     ) -> f64x8<S> {
-        let half = f64x8::splat(simd, 0.5);
-        let jump = f64x8::splat(simd, self.impedance) * closing * limiter;
-        half * (together + jump)
+        let jump = f64x8::splat(simd, self.impedance) * between.closing * between.limiter;
+        f64x8::splat(simd, 0.5) * (together + jump)
     }
 
     /// By what u* is less than the mean velocity, along e.
@@ -144,25 +142,9 @@ impl<S: Simd> Own<S> {
         }
         own
     }
-
-    /// (B_i + B_j) x by the sum of both.
-    #[inline(always)]
-    fn corrected<const D: usize>(
-        simd: S,
-        correction: &[f64x8<S>; 6],
-        x: [f64x8<S>; D],
-    ) -> [f64x8<S>; D] {
-        let mut out = [f64x8::splat(simd, 0.0); D];
-        for row in 0..D {
-            for column in 0..D {
-                out[row] = correction[entry(D, row, column)].mul_add(x[column], out[row]);
-            }
-        }
-        out
-    }
 }
 
-/// The sources' fields, and what is along the line to them.
+/// The sources' fields.
 #[derive(Debug, Clone, Copy)]
 struct Theirs<S: Simd, const D: usize> {
     velocity: [[f64x8<S>; GROUP]; D],
@@ -235,6 +217,81 @@ impl<S: Simd, const D: usize> Theirs<S, D> {
     }
 }
 
+/// What is between a particle and a source.
+#[derive(Debug, Clone, Copy)]
+struct Between<S: Simd, const D: usize> {
+    /// J, and L of it.
+    closing: f64x8<S>,
+    limiter: f64x8<S>,
+    /// u_i − u_j, of a wall u_i − u_w.
+    difference: [f64x8<S>; D],
+    /// u*.
+    velocity: [f64x8<S>; D],
+    /// (B_i + B_j) r_ij.
+    corrected: [f64x8<S>; D],
+    /// ρ* u* · that.
+    flux: f64x8<S>,
+}
+
+impl<S: Simd, const D: usize> Between<S, D> {
+    #[inline(always)]
+    fn of(
+        riemann: &Riemann,
+        own: &Own<S>,
+        theirs: &Theirs<S, D>,
+        group: &Group<'_, S, D>,
+        j: usize,
+    ) -> Self {
+        let simd = group.simd;
+        let zero = f64x8::splat(simd, 0.0);
+        let half = f64x8::splat(simd, 0.5);
+        let direction = theirs.direction(group, j);
+        let mut difference = [zero; D];
+        let mut closing = zero;
+        for k in 0..D {
+            difference[k] = own.velocity[k] - theirs.velocity[k][j];
+            closing -= direction[k] * difference[k];
+        }
+        let mut velocity = [zero; D];
+        let mut density = own.density;
+        if !group.are_targets {
+            // The wall's image of the particle has another velocity: twice the difference.
+            closing += closing;
+        }
+        let limiter = riemann.limiter(simd, closing);
+        if group.are_targets {
+            density = half * (own.density + theirs.density[j]);
+            let slower = riemann.slower(simd, own.pressure - theirs.pressure[j], limiter);
+            for k in 0..D {
+                let mean = half * (own.velocity[k] + theirs.velocity[k][j]);
+                velocity[k] = mean - slower * direction[k];
+            }
+        } else {
+            for k in 0..D {
+                velocity[k] = theirs.velocity[k][j];
+            }
+        }
+        let correction = theirs.correction(own, j, group.are_targets);
+        let mut corrected = [zero; D];
+        let mut flux = zero;
+        for row in 0..D {
+            for column in 0..D {
+                let entry = correction[entry(D, row, column)];
+                corrected[row] = entry.mul_add(group.apart[j][column], corrected[row]);
+            }
+            flux = velocity[row].mul_add(corrected[row], flux);
+        }
+        Self {
+            closing,
+            limiter,
+            difference,
+            velocity,
+            corrected,
+            flux: density * flux,
+        }
+    }
+}
+
 /// Of the momentum, without the slope's scale.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MomentumLanes<S: Simd> {
@@ -272,58 +329,28 @@ impl Term for Momentum {
     fn add<S: Simd, const D: usize>(&self, sums: &mut MomentumLanes<S>, group: &Group<'_, S, D>) {
         let simd = group.simd;
         let constant = |c: f64| f64x8::splat(simd, c);
-        let zero = constant(0.0);
-        let half = constant(0.5);
-        // A wall is half as far as its particle's image, of which u_ij is twice the difference.
+        // A wall is half as far as its image of the particle.
         let friction = constant(self.viscosity * if group.are_targets { 2.0 } else { 4.0 });
         let softening = constant(self.softening);
         let own = sums.own;
         let theirs = Theirs::of(group);
         let gradient = group.own.slope * group.inverse;
         for j in 0..GROUP {
-            let direction = theirs.direction(group, j);
-            let mut between = [zero; D];
-            let mut closing = zero;
-            for k in 0..D {
-                between[k] = own.velocity[k] - theirs.velocity[k][j];
-                closing -= direction[k] * between[k];
-            }
-            let mut together = own.pressure + theirs.pressure[j];
-            let mut density = half * (own.density + theirs.density[j]);
-            let mut velocity = [zero; D];
-            if group.are_targets {
-                let limiter = self.riemann.limiter(simd, closing);
-                let slower = self
-                    .riemann
-                    .slower(simd, own.pressure - theirs.pressure[j], limiter);
-                for k in 0..D {
-                    let mean = half * (own.velocity[k] + theirs.velocity[k][j]);
-                    velocity[k] = mean - slower * direction[k];
-                }
+            let between = Between::of(&self.riemann, &own, &theirs, group, j);
+            let together = if group.are_targets {
+                own.pressure + theirs.pressure[j]
             } else {
-                closing += closing;
-                together = own.pressure + own.pressure;
-                density = own.density;
-                for k in 0..D {
-                    velocity[k] = theirs.velocity[k][j];
-                }
-            }
-            let limiter = self.riemann.limiter(simd, closing);
-            let pressure = self.riemann.pressure(simd, together, closing, limiter);
-            let correction = theirs.correction(&own, j, group.are_targets);
-            let corrected = Own::corrected(simd, &correction, group.apart[j]);
-            let mut flux = zero;
-            for k in 0..D {
-                flux = velocity[k].mul_add(corrected[k], flux);
-            }
-            flux *= density;
+                own.pressure + own.pressure
+            };
+            let pressure = (self.riemann).pressure(simd, together, &between);
             let along = group.weight[j] * gradient.0[j];
             let distance = group.square[j] * group.inverse.0[j];
             let rub = friction * group.weight[j] * group.own.slope.0[j] / (distance + softening);
             for k in 0..D {
-                let push = pressure.mul_add(corrected[k], flux * velocity[k]);
+                let carried = between.flux * between.velocity[k];
+                let push = pressure.mul_add(between.corrected[k], carried);
                 sums.pushed[0][k] = along.mul_add(push, sums.pushed[0][k]);
-                sums.rubbed[0][k] = rub.mul_add(between[k], sums.rubbed[0][k]);
+                sums.rubbed[0][k] = rub.mul_add(between.difference[k], sums.rubbed[0][k]);
             }
         }
     }
@@ -375,43 +402,12 @@ impl Term for Mass {
 
     #[inline(always)]
     fn add<S: Simd, const D: usize>(&self, sums: &mut MassLanes<S>, group: &Group<'_, S, D>) {
-        let simd = group.simd;
-        let zero = f64x8::splat(simd, 0.0);
-        let half = f64x8::splat(simd, 0.5);
-        let own = sums.own;
         let theirs = Theirs::of(group);
         let gradient = group.own.slope * group.inverse;
         for j in 0..GROUP {
-            let mut velocity = [zero; D];
-            let mut density = own.density;
-            if group.are_targets {
-                let direction = theirs.direction(group, j);
-                let mut closing = zero;
-                for k in 0..D {
-                    closing -= direction[k] * (own.velocity[k] - theirs.velocity[k][j]);
-                }
-                let limiter = self.riemann.limiter(simd, closing);
-                let slower = self
-                    .riemann
-                    .slower(simd, own.pressure - theirs.pressure[j], limiter);
-                density = half * (own.density + theirs.density[j]);
-                for k in 0..D {
-                    let mean = half * (own.velocity[k] + theirs.velocity[k][j]);
-                    velocity[k] = mean - slower * direction[k];
-                }
-            } else {
-                for k in 0..D {
-                    velocity[k] = theirs.velocity[k][j];
-                }
-            }
-            let correction = theirs.correction(&own, j, group.are_targets);
-            let corrected = Own::corrected(simd, &correction, group.apart[j]);
-            let mut flux = zero;
-            for k in 0..D {
-                flux = velocity[k].mul_add(corrected[k], flux);
-            }
+            let between = Between::of(&self.riemann, &sums.own, &theirs, group, j);
             let along = group.weight[j] * gradient.0[j];
-            sums.sum = (along * density).mul_add(flux, sums.sum);
+            sums.sum = along.mul_add(between.flux, sums.sum);
         }
     }
 
