@@ -9,7 +9,7 @@ use super::start::{Start, packed};
 use super::surface::Surface;
 
 /// A body in a stream of speed 1 and density 1 along x, in a box that is periodic both ways; a fringe at its end makes the stream
-/// uniform again. Lengths are in halves of the body's own, which is 2.
+/// uniform again. The body is 2 long.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stream<'a> {
     /// What is said of its progress.
