@@ -37,7 +37,7 @@ fn run(room: Room, start: Start) -> Result<Run, String> {
         })
         .collect();
     let (low, high, spacing, end, measured_from) = match room {
-        Room::Quick => ([-7.0, -7.0], [13.0, 7.0], 0.2, 10.0, 6.0),
+        Room::Quick => ([-7.0, -7.0], [13.0, 7.0], 0.2, 7.0, 5.0),
         Room::Narrow => ([-7.0, -7.0], [13.0, 7.0], 0.1, 70.0, 42.0),
         Room::Wide => ([-10.0, -15.0], [20.0, 15.0], 0.1, 150.0, 75.0),
     };
