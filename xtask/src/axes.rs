@@ -16,6 +16,16 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
+    /// One with even steps.
+    pub(crate) fn linear(title: &'static str) -> Self {
+        Self {
+            title,
+            scale: Scale::Linear,
+        }
+    }
+}
+
+impl Axis {
     /// The numbers that the axis spans, ends at ticks.
     fn span(&self, values: impl Iterator<Item = f64>) -> ([f64; 2], Vec<f64>) {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -15,6 +15,17 @@ pub(crate) struct Series {
     pub(crate) joined: bool,
 }
 
+impl Series {
+    /// A curve.
+    pub(crate) fn curve(name: &str, points: Vec<[f64; 2]>) -> Self {
+        Self {
+            name: name.to_owned(),
+            points,
+            joined: true,
+        }
+    }
+}
+
 /// A chart.
 pub(crate) struct Chart {
     pub(crate) title: &'static str,

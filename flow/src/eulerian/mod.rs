@@ -137,7 +137,7 @@ impl<const D: usize> Eulerian<D> {
         &self.particles
     }
 
-    /// The body force and the fringe's stream may be changed between steps, so that a stream begins gently; so may the rest.
+    /// The body force, the viscosities and the fringe's stream may be changed between steps, so that a stream begins gently; nothing else.
     pub fn settings_mut(&mut self) -> &mut EulerianSettings<D> {
         &mut self.settings
     }

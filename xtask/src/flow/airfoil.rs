@@ -1,6 +1,6 @@
 //! 000's NACA0015 without incidence.
 
-use super::finding::{Change, Findings, Row};
+use super::finding::{Findings, Row};
 use super::run::{Run, Runs};
 use super::start::Start;
 use super::stream::Stream;
@@ -81,7 +81,7 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
     let what = format!("{name}, balanced: particles that crossed the true surface");
     let crossed = balanced.number("crossed");
     found.rows.push(Row::at_most(what, "–", 0.0, crossed));
-    for (number, what, as_percent) in [
+    let numbers = [
         ("lift", "mean lift, 0 by symmetry", false),
         ("swing", "lift, √2 times its RMS about the mean", false),
         ("drag", "drag", false),
@@ -99,15 +99,8 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
             true,
         ),
         ("crossed", "particles that crossed the true surface", false),
-    ] {
-        found.changes.push(Change {
-            what: format!("{name}: {what}"),
-            clipped: clipped.number(number),
-            packed: balanced.number(number),
-            by: "balanced",
-            as_percent,
-        });
-    }
+    ];
+    found.compare(name, [&clipped, &balanced], &numbers);
     Ok(found)
 }
 

@@ -3,11 +3,11 @@
 use sphpack_flow::{COURANT, Edac, EdacSettings, Medium, Particles};
 use sphpack_neighbors::{Domain, point};
 
-use super::finding::{Change, Findings, Row};
+use super::finding::{Findings, Row};
 use super::progress::Progress;
 use super::run::{Run, Runs};
 use super::start::{Start, packed};
-use crate::chart::{Axis, Chart, Scale, Series};
+use crate::chart::{Axis, Chart, Series};
 
 /// The shaft's and the ring's radius.
 const SHAFT: f64 = 0.25;
@@ -181,33 +181,25 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
             0.005 * 5000.0,
             balanced.number("beyond"),
         ));
-        for (number, what) in [
-            ("error", "speed around, L2"),
-            ("radial", "speed outward, over the speed around"),
-            ("torque", "torque off by"),
-            ("area", "area of the fluid off by"),
-        ] {
-            found.changes.push(Change {
-                what: format!("{name}: {what}"),
-                clipped: clipped.number(number),
-                packed: balanced.number(number),
-                by: "balanced",
-                as_percent: true,
-            });
-        }
+        let numbers = [
+            ("error", "speed around, L2", true),
+            ("radial", "speed outward, over the speed around", true),
+            ("torque", "torque off by", true),
+            ("area", "area of the fluid off by", true),
+        ];
+        found.compare(&name, [&clipped, &balanced], &numbers);
         let theory = (0..=50).map(|k| SHAFT + (RING - SHAFT) * f64::from(k) / 50.0);
         let curve = |name: &str, points: Vec<[f64; 2]>, joined| Series {
             name: name.to_owned(),
             points,
             joined,
         };
-        let axis = |title| Axis {
-            title,
-            scale: Scale::Linear,
-        };
         let chart = Chart {
             title: "Taylor–Couette: speed around the axis",
-            axes: [axis("distance from the axis"), axis("speed around")],
+            axes: [
+                Axis::linear("distance from the axis"),
+                Axis::linear("speed around"),
+            ],
             series: vec![
                 curve("clipped", clipped.curves["speed"].clone(), false),
                 curve("balanced", balanced.curves["speed"].clone(), false),

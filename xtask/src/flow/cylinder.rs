@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 
 use sphpack_neighbors::point;
 
-use super::finding::{Change, Findings, Row};
+use super::finding::{Findings, Row};
 use super::run::{Run, Runs};
 use super::start::Start;
 use super::stream::Stream;
-use crate::chart::{Axis, Chart, Scale, Series};
+use crate::chart::{Axis, Chart, Series};
 
 const SHAPE: &str = "circle = { center = [0.0, 0.0], radius = 1.0 }";
 
@@ -77,7 +77,8 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
     let what = format!("{name}, balanced: particles that crossed the true surface");
     let crossed = balanced.number("crossed");
     found.rows.push(Row::at_most(what, "–", 0.0, crossed));
-    for (number, what, as_percent) in [
+    let both = [&clipped, &balanced];
+    let numbers = [
         ("slip", "speed at the surface, RMS over the stream's", true),
         ("slip-rough", "its waves shorter than a tenth around", true),
         (
@@ -92,25 +93,18 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
         ),
         ("friction", "drag by friction", false),
         ("drag", "drag", false),
+    ];
+    found.compare(name, both, &numbers);
+    if quick {
+        // Nothing is shed by then.
+        return Ok(found);
+    }
+    let shed = [
         ("swing", "lift, amplitude", false),
         ("extreme", "lift, largest", false),
         ("strouhal", "Strouhal number", false),
-    ] {
-        if quick && ["swing", "extreme", "strouhal"].contains(&number) {
-            // Nothing is shed by then.
-            continue;
-        }
-        found.changes.push(Change {
-            what: format!("{name}: {what}"),
-            clipped: clipped.number(number),
-            packed: balanced.number(number),
-            by: "balanced",
-            as_percent,
-        });
-    }
-    if quick {
-        return Ok(found);
-    }
+    ];
+    found.compare(name, both, &shed);
     let wide = get(Room::Wide, Start::Balanced)?;
     let name = "cylinder Re 200, D/∆s = 20, 000's box, balanced";
     for (number, what, published, shown, bar) in [
@@ -125,15 +119,6 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
     let off = (wide.number("strouhal") - STROUHAL).abs();
     let what = format!("{name}: Strouhal number off by");
     found.rows.push(Row::at_most(what, "0.20", 0.01, off));
-    let curve = |name: &str, points: &[[f64; 2]]| Series {
-        name: name.to_owned(),
-        points: points.to_vec(),
-        joined: true,
-    };
-    let axis = |title| Axis {
-        title,
-        scale: Scale::Linear,
-    };
     // The first moments ring and would set the axis.
     let after = |run: &Run, name: &str| -> Vec<[f64; 2]> {
         let points = run.curves[name].iter().copied();
@@ -141,12 +126,12 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
     };
     let chart = Chart {
         title: "Cylinder, Re 200, box of 10 × 7 D: drag and lift",
-        axes: [axis("time, U t/R"), axis("coefficient")],
+        axes: [Axis::linear("time, U t/R"), Axis::linear("coefficient")],
         series: vec![
-            curve("drag, clipped", &after(&clipped, "drag")),
-            curve("drag, balanced", &after(&balanced, "drag")),
-            curve("lift, clipped", &after(&clipped, "lift")),
-            curve("lift, balanced", &after(&balanced, "lift")),
+            Series::curve("drag, clipped", after(&clipped, "drag")),
+            Series::curve("drag, balanced", after(&balanced, "drag")),
+            Series::curve("lift, clipped", after(&clipped, "lift")),
+            Series::curve("lift, balanced", after(&balanced, "lift")),
         ],
     };
     found.charts.push(("flow-cylinder", chart));

@@ -9,7 +9,7 @@ use super::finding::{Change, Findings, Row};
 use super::progress::Progress;
 use super::run::{Run, Runs};
 use super::start::{Start, packed};
-use crate::chart::{Axis, Chart, Scale, Series};
+use crate::chart::{Axis, Chart, Series};
 
 /// Artificial viscosity; Bouscasse et al. give none.
 const VISCOSITY: f64 = 0.01;
@@ -194,13 +194,9 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
             .collect(),
         joined: true,
     });
-    let axis = |title| Axis {
-        title,
-        scale: Scale::Linear,
-    };
     let chart = Chart {
         title: "Elliptical drop: the short semi-axis",
-        axes: [axis("A₀ t"), axis("off by, per cent")],
+        axes: [Axis::linear("A₀ t"), Axis::linear("off by, per cent")],
         series: series.into(),
     };
     found.charts.push(("flow-drop", chart));

@@ -1,5 +1,6 @@
 //! What a case has to say: numbers beside their bars, and what the packing changes.
 
+use super::run::Run;
 use crate::chart::Chart;
 
 /// A number beside what is published and its bar.
@@ -121,6 +122,26 @@ pub(super) struct Findings {
     pub(super) changes: Vec<Change>,
     /// Drawings, by the name of their file in `docs`, without ending.
     pub(super) charts: Vec<(&'static str, Chart)>,
+}
+
+impl Findings {
+    /// What differs between a run from the clipped lattice and one from the balanced packing: numbers of theirs, what they are, and whether
+    /// they are parts of one.
+    pub(super) fn compare(
+        &mut self,
+        case: &str,
+        [clipped, balanced]: [&Run; 2],
+        numbers: &[(&str, &str, bool)],
+    ) {
+        let change = |&(number, what, as_percent): &(&str, &str, bool)| Change {
+            what: format!("{case}: {what}"),
+            clipped: clipped.number(number),
+            packed: balanced.number(number),
+            by: "balanced",
+            as_percent,
+        };
+        self.changes.extend(numbers.iter().map(change));
+    }
 }
 
 /// Two or three digits of a number.

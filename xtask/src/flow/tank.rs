@@ -207,10 +207,7 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
         let chart = Chart {
             title: "Trapezoidal tank: kinetic energy",
             axes: [
-                Axis {
-                    title: "t √(g/H)",
-                    scale: Scale::Linear,
-                },
+                Axis::linear("t √(g/H)"),
                 Axis {
                     title: "kinetic energy over MgH",
                     scale: Scale::Logarithmic,

@@ -10,9 +10,12 @@ use super::finding::{Change, Findings, Row};
 use super::progress::Progress;
 use super::run::{Run, Runs};
 use super::start::{Start, packed};
-use crate::chart::{Axis, Chart, Scale, Series};
+use crate::chart::{Axis, Chart, Series};
 
 const REYNOLDS: f64 = 100.0;
+
+/// Why a packing around a circle misses.
+const LATTICE: &str = "most of it is a lattice, whose particles stagnation lines string up";
 
 /// What the vortices start from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -149,13 +152,9 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
         points: run.curves["error"].clone(),
         joined: true,
     });
-    let axis = |title| Axis {
-        title,
-        scale: Scale::Linear,
-    };
     let chart = Chart {
         title: "Taylor–Green vortices, Re 100, 50²",
-        axes: [axis("time"), axis("error of speeds")],
+        axes: [Axis::linear("time"), Axis::linear("error of speeds")],
         series: series.into(),
     };
     found.charts.push(("flow-vortices", chart));

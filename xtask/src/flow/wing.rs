@@ -3,11 +3,11 @@
 use sphpack_flow::{Eulerian, EulerianSettings, Fringe, Medium, Particles};
 use sphpack_neighbors::{Domain, point};
 
-use super::finding::{Change, Findings, Row};
+use super::finding::{Findings, Row};
 use super::progress::Progress;
 use super::run::{Run, Runs};
 use super::start::{Start, packed};
-use crate::chart::{Axis, Chart, Scale, Series};
+use crate::chart::{Axis, Chart, Series};
 
 const SPEED: f64 = 1.0;
 const SOUND_SPEED: f64 = 10.0;
@@ -197,10 +197,16 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
     let name = format!("NACA5515 Re 420, c/∆s = {}", flight.count);
     let clipped = get(&flight, Start::Clipped)?;
     let balanced = get(&flight, Start::Balanced)?;
+    let what = format!("{name}, balanced: time that was reached, of what was asked");
+    let lasted = balanced.number("lasted") / flight.end;
+    found.rows.push(Row::at_least(what, "–", 1.0, lasted));
+    let rough = clipped.number("rough") / balanced.number("rough");
+    let what = format!("{name}: roughness of the pressure behind the nose, clipped over balanced");
+    found.rows.push(Row::at_least(what, "–", 1.0, rough));
     let what = format!("{name}, balanced: largest pressure over ½ρU²");
     let highest = balanced.number("highest");
     (found.rows).push(Row::at_most(what, "–", 2.0, highest).because(NOSE));
-    for (number, what, as_percent) in [
+    let numbers = [
         (
             "rough",
             "pressure next to the wing, roughness over ½ρU²",
@@ -210,15 +216,8 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
         ("thrust", "drag by pressure", false),
         ("lift", "lift", false),
         ("highest", "largest pressure over ½ρU²", false),
-    ] {
-        found.changes.push(Change {
-            what: format!("{name}: {what}"),
-            clipped: clipped.number(number),
-            packed: balanced.number(number),
-            by: "balanced",
-            as_percent,
-        });
-    }
+    ];
+    found.compare(&name, [&clipped, &balanced], &numbers);
     if quick {
         return Ok(found);
     }
@@ -243,25 +242,18 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
         let ratio = without.number("highest") / highest;
         found.rows.push(Row::at_least(what, "–", 1.0, ratio));
     }
-    let curve = |name: &str, run: &Run, of: &str| Series {
-        name: name.to_owned(),
-        points: (run.curves[of].iter().copied())
-            .filter(|point| point[0] > 0.5)
-            .collect(),
-        joined: true,
-    };
-    let axis = |title| Axis {
-        title,
-        scale: Scale::Linear,
+    let begun = |run: &Run, of: &str| -> Vec<[f64; 2]> {
+        let points = run.curves[of].iter().copied();
+        points.filter(|point| point[0] > 0.5).collect()
     };
     let chart = Chart {
         title: "NACA5515, Re 420, 5°, Eulerian: drag and lift",
-        axes: [axis("time, U t/c"), axis("coefficient")],
+        axes: [Axis::linear("time, U t/c"), Axis::linear("coefficient")],
         series: vec![
-            curve("drag, clipped", &clipped, "drag"),
-            curve("drag, balanced", &balanced, "drag"),
-            curve("lift, clipped", &clipped, "lift"),
-            curve("lift, balanced", &balanced, "lift"),
+            Series::curve("drag, clipped", begun(&clipped, "drag")),
+            Series::curve("drag, balanced", begun(&balanced, "drag")),
+            Series::curve("lift, clipped", begun(&clipped, "lift")),
+            Series::curve("lift, balanced", begun(&balanced, "lift")),
         ],
     };
     found.charts.push(("flow-wing", chart));
