@@ -113,9 +113,10 @@ pub(super) fn find(runs: &Runs, quick: bool) -> Result<Findings, String> {
         let run = get(count, from, 0.0)?;
         let what = format!("Taylor–Green Re 100, {count}², {name}: error of speeds");
         let row = Row::at_most(what, "exact", bar, run.number("error")).percent();
-        found.rows.push(
-            row.because("most of it is a lattice, whose particles stagnation lines string up"),
-        );
+        found.rows.push(match from {
+            From::Packed(_) => row.because(LATTICE),
+            _ => row,
+        });
         Ok(run)
     };
     bar(25, From::Shaken, "shaken lattice", 0.025)?;

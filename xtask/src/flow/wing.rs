@@ -27,7 +27,7 @@ const BEGIN: f64 = 1.0;
 const BEHIND_NOSE: f64 = 0.2 * CHORD;
 
 /// Why pressures are as high there as they are.
-const NOSE: &str = "at the nose, whose radius is 1.5 ∆s: dummy walls ask for three";
+const NOSE: &str = "at the nose, whose radius is 0.025 chords: dummy walls ask for three spacings";
 
 /// Steps between two points of a curve.
 const POINT_EVERY: usize = 50;
